@@ -12,6 +12,8 @@ Test = Literal["lt", "le", "gt", "ge", "eq", "ne"]
 Value = str | float | bool
 #: End from which rows, or trees in a row, are counted; ``usual`` is west or north, by the direction of the rows.
 CountedFrom = Literal["usual", "north", "east", "south", "west"]
+#: A half or a quarter of an area, or all of it.
+AreaPart = Literal["all", "north", "east", "south", "west", "nw", "ne", "se", "sw"]
 #: A direction of the compass, or none.
 AnySide = Literal["any", "north", "east", "south", "west"]
 #: A side of a tree: the aisle from which it is worked on.

@@ -31,6 +31,7 @@ from fieldhand.site.drives import Drives
 from fieldhand.site.gaps import empty_positions
 from fieldhand.site.loader import open_site
 from fieldhand.site.model import Place, Site, Zone
+from support.sites.fields import pasture
 from support.sites.points import at_start, planted, site_of, without_rows
 
 VINEYARD = open_site("vineyard")
@@ -323,3 +324,27 @@ def test_the_vines_of_a_quota_are_named_by_their_group_unless_they_are_many():
     many = Quota(per="row", count=2)
     assert many.say_groups(found(many), VINEYARD) == ""
     assert Quota(percent=1.0).say_groups(chosen, VINEYARD) == ""
+
+
+@pytest.mark.parametrize(("zone", "inside"), [("cow paddock", True), ("", True), ("pond", False)])
+@pytest.mark.parametrize("apart_m", [6.0, 15.0])
+def test_points_along_an_edge_are_evenly_spaced_beside_it(zone: str, apart_m: float, inside: bool) -> None:
+    site = pasture()
+    called = [one.polygon for one in site.zones if one.name == (zone or "common")]
+    places = found(Transect(shape="edge", apart_m=apart_m, zone=zone), site)
+    edge = called[0].exterior
+    for place in places:
+        assert called[0].contains(Point(place.xy)) == inside
+        assert 1.0 <= edge.distance(Point(place.xy)) <= 2.0
+    length = edge.length
+    assert len(places) == pytest.approx(length / apart_m, abs=0.2 * length / apart_m + 1)
+    along = sorted(edge.project(Point(place.xy)) for place in places)
+    gaps = np.diff([*along, along[0] + length])
+    assert gaps == pytest.approx([length / len(places)] * len(places), abs=4.0)
+
+
+def test_so_many_points_along_an_edge_are_named_by_their_zone() -> None:
+    places = found(Transect(shape="edge", count=5, zone="bank"), pasture())
+    assert [place.id for place in places] == [f"point {k} of 5 in bank" for k in range(1, 6)]
+    with pytest.raises(PlaceError, match="wood"):
+        found(Transect(shape="edge", count=5, zone="wood"), pasture())

@@ -246,10 +246,9 @@ def _notes(walks: Sequence[Walk], site: Site) -> tuple[str, ...]:
 def _waits(task: Task, robot: RobotProfile) -> tuple[str, ...]:
     """Return a note on waiting for events, which the forecast leaves out."""
     longest = [wait_limit_s(watch, robot) for watch in task.composition.watches if watch.response == "wait"]
+    slow: tuple[str, ...] = ()
     if any(watch.response == "slow" for watch in task.composition.watches):
         slow = (message("The figures are without events: driving slowly while one holds takes longer."),)
-    else:
-        slow = ()
     if not longest:
         return slow
     time = say_duration(max(longest))

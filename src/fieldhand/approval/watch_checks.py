@@ -9,7 +9,7 @@ from fieldhand.language import message
 from fieldhand.language.words import listed, say_action, say_name
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import acts, walk, works
+from fieldhand.task.plan import actions_of, acts, walk
 from fieldhand.task.watches import ReadingBeyond, Watch
 from fieldhand.wording.watches import say_watched
 
@@ -24,7 +24,7 @@ def watch_problems(task: Task, robot: RobotProfile) -> Iterator[PlanProblem]:
                 message("“{what}” is to leave out a visit, and the plan has no list of visits", what=what),
                 message("let it wait, go home or end, or visit the places in a for-each"),
             )
-        done = {one.action for one in (*acts(task.composition.plan), *works(task.composition.plan))}
+        done = actions_of(task.composition.plan)
         if watch.during and watch.during not in done:
             yield _problem(
                 message(

@@ -31,6 +31,17 @@ def implement_problems(task: Task, robot: RobotProfile) -> Iterator[PlanProblem]
                 what=message("every {count}th aisle is not possible", count=node.every),
                 advice=message("ask for every aisle, every second aisle, ..."),
             )
+        lanes = node.heading in ("north_south", "east_west")
+        if node.heading != "any" and (node.mode not in ("rows", "aisles", "area") or lanes != (node.mode == "area")):
+            yield PlanProblem(
+                node=node.id,
+                where=message("plan"),
+                what=message("this work has no such direction"),
+                advice=message(
+                    "lanes of an area run north_south or east_west; rows and aisles are driven north, east, south or"
+                    " west"
+                ),
+            )
         action = robot.action.get(node.action)
         if (
             node.mode == "area"

@@ -11,7 +11,7 @@ import math
 from dataclasses import dataclass
 
 from fieldhand.execution.active_mission import ActiveMission
-from fieldhand.task.plan import acts, works
+from fieldhand.task.plan import actions_of
 from fieldhand.task.results import Acted, EventBegan, EventEnded
 from fieldhand.task.watches import PRIORITY, EventAbsent, EventBeyond, EventHolds, ReadingBeyond, Watch, exceeds
 from fieldhand.wording.watches import say_held, say_watched, slow_limit_m_s
@@ -127,7 +127,7 @@ class EventMonitor:
         """Return True while a step that does an action is under way, or a loop around such steps."""
         nodes = (frame.node for frame in self._mission.run.frames)
         parts = (n for n in nodes if n.visits_each or n.rounds is not None or n.act is not None or n.work is not None)
-        return any(action == one.action for part in parts for one in (*acts(part), *works(part)))
+        return any(action in actions_of(part) for part in parts)
 
     def _note_readings(self) -> None:
         """Take the readings of the captures since the last check."""

@@ -6,7 +6,7 @@ import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import shapely
@@ -119,7 +119,7 @@ NO_SLOW_GROUND = SlowGround()
 
 def _inside(points: np.ndarray, ends: np.ndarray, shape: BaseGeometry) -> list[tuple[float, float]]:
     """Return the intervals of a path inside a shape, segment by segment, since a path may cross itself."""
-    lines = shapely.linestrings(np.stack([points[:-1], points[1:]], axis=1))
+    lines: Any = shapely.linestrings(np.stack([points[:-1], points[1:]], axis=1))
     touched = np.flatnonzero(shapely.intersects(shape, lines))
     found: list[tuple[float, float]] = []
     for k in touched.tolist():

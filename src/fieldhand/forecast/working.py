@@ -20,6 +20,7 @@ from fieldhand.robot.implement import Implement, rate_unit
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.site.working.areas import AreaWork, area_work, headland_units, perimeter_units
+from fieldhand.site.working.heading import LANE_BEARINGS, headed
 from fieldhand.site.working.order import in_order
 from fieldhand.site.working.stretch import Stretch, total_m, within
 from fieldhand.site.working.units import AisleWork, RowWork, WorkUnit, aisle_units, row_units
@@ -208,7 +209,8 @@ def _area(
             advice=message("give its working width in the profile, or work along rows or the edge"),
         )
     here = context.here.stand or context.here.xy
-    return area_work(drives, node.along.ground(Resolution(site, context)), width_m, here, home)
+    ground, bearing = node.along.ground(Resolution(site, context)), LANE_BEARINGS.get(node.heading)
+    return area_work(drives, ground, width_m, here, home, bearing_deg=bearing)
 
 
 def _perimeter(
@@ -238,13 +240,16 @@ def _units(
     if node.mode == "perimeter":
         return _perimeter(node, site, robot, drives, context)
     trees = [site.by_id[place.id].index for place in places if place.kind == "tree"]
+    if node.mode == "headlands":
+        return headland_units(drives, trees)
     if node.mode == "rows":
         mounted = "both" if implement is None else implement.side
-        return row_units(drives, trees, RowWork(sides=node.sides, mounted=mounted, gaps_on=node.gaps == "on"))
-    if node.mode == "aisles":
+        units = row_units(drives, trees, RowWork(sides=node.sides, mounted=mounted, gaps_on=node.gaps == "on"))
+    else:
         width = implement.width_m if implement is not None and implement.covers else None
-        return aisle_units(drives, trees, AisleWork(width_m=width, every=node.every))
-    return headland_units(drives, trees)
+        units = aisle_units(drives, trees, AisleWork(width_m=width, every=node.every))
+    side = node.heading
+    return headed(units, side, site.name) if side in ("north", "east", "south", "west") else units
 
 
 def _laps(stretches: tuple[Stretch, ...], laps: int) -> tuple[Stretch, ...]:

@@ -167,8 +167,14 @@ def not_a_number(attribute: str) -> PlaceError:
     )
 
 
-def nothing(site: Site, selector: Selector, of: str = "") -> NoPlaceError:
+def nothing(site: Site, selector: Selector, of: str = "") -> PlaceError:
     """Return the error for a part of a selector that matches nothing."""
+    if not site.trees:
+        return PlaceError(
+            message("this site records no plants: {trees}", trees=_shortened(say_selector(selector))),
+            where=site.name,
+            advice=message("name an area and a number of points: '10 points in the meadow'"),
+        )
     what = message("nothing on this site matches {trees}", trees=_shortened(say_selector(selector)))
     return NoPlaceError(
         message("{what} ({why})", what=what, why=of) if of else what,

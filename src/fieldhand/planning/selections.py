@@ -20,6 +20,8 @@ _NESTING: dict[type[s.Selector], int] = {
     s.Rows: 2,
     s.InZone: 3,
 }
+#: Number of free points of which something else says how many there are.
+OPEN_NUMBER = 0
 #: Selectors of areas.
 AREAS = tuple(_NESTING)
 
@@ -452,3 +454,23 @@ def is_description(selector: s.Selector) -> bool:
 def as_where(selector: s.Selector) -> s.Where | None:
     """Return the selector if it tests an attribute, None otherwise."""
     return selector if isinstance(selector, s.Where) else None
+
+
+def chosen_from(selector: s.Selector, group: s.Selector) -> bool:
+    """Return True if some of a group described by an attribute are selected: six basil plants, of the basil."""
+    kind = as_where(group)
+    inside = [where for part in selector.walk() if (where := as_where(part)) is not None]
+    same = [w for w in inside if kind is not None and replace(w, of=s.Trees()) == replace(kind, of=s.Trees())]
+    return bool(same) and as_where(selector) is None
+
+
+def has_open_number(selector: s.Selector) -> bool:
+    """Return True for free points, or plants drawn at random, of which it is not said how many there are."""
+    return any(isinstance(part, s.PointsIn | s.RandomSample) and part.count == OPEN_NUMBER for part in selector.walk())
+
+
+def with_number(selector: s.Selector, count: int) -> s.Selector:
+    """Return places drawn at random, or free points, with their number, where it was open."""
+    if isinstance(selector, s.PointsIn | s.RandomSample) and selector.count == OPEN_NUMBER:
+        return replace(selector, count=count)
+    return selector

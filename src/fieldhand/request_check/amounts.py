@@ -147,7 +147,8 @@ def _amount(
 def _pace(tokens: Sequence[Token], k: int) -> float:
     """Return the seconds of a speed's unit of time ("/ s", "per hour", "a second"); 0 if it is no speed."""
     per = [token.text for token in tokens[k : k + 2]]
-    return w.TIMES.get(per[1], 0.0) if len(per) == 2 and per[0] in ("/", "per", "a", "an") else 0.0
+    seconds = w.TIMES | {"second": 1.0}  # "half a metre a second"; elsewhere "second" is a rank
+    return seconds.get(per[1], 0.0) if len(per) == 2 and per[0] in ("/", "per", "a", "an", "each", "every") else 0.0
 
 
 def _name(before: Sequence[Token]) -> AmountKind | None:
@@ -161,7 +162,7 @@ def _name(before: Sequence[Token]) -> AmountKind | None:
     head = texts[-1] if texts else ""
     if head in w.ROWS:
         return "row"
-    if head in ("block", "blocks", "plot", "parcel", "zone", "section"):
+    if head in ("bed", "beds", "bench", "block", "blocks", "plot", "parcel", "zone", "section"):
         return "name"
     if head in ("tree", "trees", "vine", "vines", "plant", "plants") or marked:
         return "id"

@@ -55,7 +55,12 @@ def mismatches(task: Task, site: Site, robot: RobotProfile) -> tuple[PlanMismatc
         *threshold_mismatches(facts, plan, robot),
         *limit_mismatches(facts, plan),
         *place_mismatches(facts, plan, site),
-        *unsupported_words(facts, periods_of(task), by_records=selects_by_work(task)),
+        *unsupported_words(
+            facts,
+            periods_of(task),
+            frozenset(node.dwell_s for node in plan.nodes if node.dwell_s),
+            by_records=selects_by_work(task),
+        ),
     ]
     return tuple(dict.fromkeys(found))
 

@@ -123,6 +123,7 @@ def _dropped(facts: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Iter
     if amount.kind == "length":
         have += [number.value for number in plan.numbers if number.kind == "length"]
         have += _parameters(plan)
+        have += [x * unit for test in plan.tests if test.attribute for x in test.values for unit in (0.01, 0.001)]
     if any(_close(value, x) for x in have):
         return
     before = {t.text for t in facts.tokens[max(0, amount.index - 6) : amount.index]}

@@ -56,6 +56,8 @@ def _number(tokens: Sequence[Token], start: int) -> StatedNumber | None:
         value, end = _in_parts(tokens, start) or _spelt(tokens, start)
         if (rank := _rank_behind(value, tokens, end)) is not None:
             return StatedNumber(value=value + rank[0], start=start, end=rank[1], ordinal=True)
+    elif text == "half" and _is_of_unit(tokens, start + 1):
+        return StatedNumber(value=0.5, start=start, end=start + 2)
     else:
         return None
     half = next((len(said) for said in _AND_A_HALF if [t.text for t in tokens[end : end + len(said)]] == said), 0)
@@ -64,6 +66,12 @@ def _number(tokens: Sequence[Token], start: int) -> StatedNumber | None:
         if half
         else StatedNumber(value=value, start=start, end=end)
     )
+
+
+def _is_of_unit(tokens: Sequence[Token], at: int) -> bool:
+    """Return True for "a metre" and "an hour" behind "half"."""
+    texts = [token.text for token in tokens[at : at + 2]]
+    return len(texts) == 2 and texts[0] in ("a", "an") and texts[1] in (w.LENGTHS | w.TIMES)
 
 
 def _spelt(tokens: Sequence[Token], start: int) -> tuple[float, int]:

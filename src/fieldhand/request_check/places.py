@@ -33,9 +33,18 @@ _OTHER_PART = re.compile(r"\bother (?:half|side|end|edge|corner|quarter)\b")
 #: Pattern of rows without a number for each.
 _SOME_ROWS = re.compile(
     r"\b(?:each|every|all|per|other|last|final|next|odd|even|alternate|middle|cent(?:er|re|ral)|\w+most|by)"
-    r"(?: \w+){0,3} rows?\b"
+    r"(?: \w+){0,3} (?:rows?|beds?|bench(?:es)?)\b"
 )
 
+#: Pattern of the neighbours of several trees.
+_BESIDE_THEM = re.compile(
+    r"\b(?:either|each|both) sides? of (?:them|these|those|each)\b|\btheir (?:\w+ )?neighbou?rs\b"
+)
+#: Pattern of a half that is named by a place near it, or by words that no map explains.
+_SOME_HALF = re.compile(
+    r"\bhalf (?:of (?:\w+ ){1,4})?(?:nearest|closest|next)\b"
+    r"|\b(?:foot|head|lowest|highest|far|near|low) (?:end |side |part |point )?of\b"
+)
 #: Words that continue a series of numbers: "5, 15, 25 and so on".
 _SERIES = re.compile(r"\b(?:and so (?:on|forth)|etc|like that)\b|\bevery \S+ (?:after|until|up|to)\b")
 #: Range of ids that differ by their number: "n300 through n310".
@@ -48,8 +57,8 @@ def place_mismatches(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterat
     yield from _rows(facts, plan, site)
     yield from _areas(facts, plan, site)
     yield from _gates(facts, plan, site)
-    yield from _sides(facts, plan)
-    yield from _attributes(facts, plan)
+    yield from _sides(facts, plan, site)
+    yield from _attributes(facts, plan, site)
     yield from _ends(facts, plan, site)
     yield from _faults(facts, plan, site)
     yield from _order(facts, plan)
@@ -57,7 +66,7 @@ def place_mismatches(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterat
 
 def _trees(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     """Yield numbered trees of the request that the plan lacks, and the reverse."""
-    named = {_digits(tree) for _, tree in plan.trees}
+    named = {number.lstrip("0") for _, tree in plan.trees for number in re.findall(r"\d+", tree)}
     spans = [(abs(x.first), abs(x.last)) for _, x in plan.having(s.InRow) if isinstance(x, s.InRow)]
     counted = {int(n.value) for n in plan.numbers if n.kind == "count"} | {
         abs(x.nth) for _, x in plan.having(s.Nth) if isinstance(x, s.Nth)
@@ -69,8 +78,8 @@ def _trees(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
         yield PlanMismatch(
             kind="place", what=message("the request names tree {number}, but the plan does not", number=n)
         )
-    if facts.spaced:
-        return  # the trees at that distance depend on the site
+    if facts.spaced or _BESIDE_THEM.search(facts.text):
+        return  # the trees at that distance, and those beside others, depend on the site
     spoken = facts.text.replace(" ", "")
     numbers = {str(n) for n in facts.whole_numbers}
     for node, tree in plan.trees:
@@ -126,12 +135,39 @@ def _rows(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
         return
     for node, row in rows:
         for name in dict.fromkeys((row.first, row.last)):
-            if int(name) > 1 and int(name) not in facts.whole_numbers:
+            if int(name) > 1 and int(name) not in facts.whole_numbers and not _is_named_by_plants(name, facts, site):
                 yield PlanMismatch(
                     kind="place",
                     what=message("the plan names row {name}, but the request does not", name=name),
                     node=node,
                 )
+
+
+def _is_named_by_plants(name: str, facts: RequestFacts, site: Site) -> bool:
+    """Return True if the request names a row by what its plants are: "the pumpkin bed"."""
+    spoken = {w.singular(word) for word in facts.words} | facts.words
+    return any(set(value.split()) & spoken for value in _values_in_row(name, site, shared=False))
+
+
+def _values_in_row(name: str, site: Site, *, shared: bool) -> set[str]:
+    """Return what the attributes say of the plants of a row: values, and the names of those that are only yes or no.
+
+    Args:
+        name: Name of the row.
+        site: The site.
+        shared: True for those that all its plants have in common.
+    """
+    plants = [
+        {
+            _name_text(text)
+            for attribute, value in site.trees[tree].properties.items()
+            for text in ((attribute, f"un{attribute}") if isinstance(value, bool) else (str(value),))
+        }
+        for row in site.planting.rows
+        if row.name == name
+        for tree in row.trees
+    ]
+    return (set.intersection(*plants) if shared else set.union(*plants)) if plants else set()
 
 
 def _is_row(facts: RequestFacts, amount: StatedAmount) -> bool:
@@ -168,9 +204,16 @@ def _areas(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
     pointed = _pointed(plan)
     held = {_name_text(name) for _, name in plan.areas}
     rows = {t for _, x in plan.having(s.Rows) if isinstance(x, s.Rows) for t in (x.first.lower(), x.last.lower())}
-    if any(one.mode == "perimeter" and one.along == s.Trees() for one in plan.works):
+    whole = any(one.along == s.Trees() for one in plan.works) or any(x == s.Trees() for _, x in plan.selectors)
+    whole = whole and not any(
+        isinstance(x, s.Edge) for _, x in plan.selectors
+    )  # trees at the edge, not the edge itself
+    whole |= any(isinstance(x, s.Transect) and x.shape == "edge" and not x.zone for _, x in plan.having(s.Transect))
+    if whole or (not plan.areas and not any(isinstance(x, s.Edge) for _, x in plan.selectors)):
         held |= {_name_text(zone.name) for zone in site.zones if zone.kind == "boundary"}
-    for name in sorted(facts.zones - held - rows):
+    beds = {name for name in facts.zones if _is_a_row_of(name, plan)}
+    in_names = {name for name in facts.zones if any(name in one.split() for one in _marks_named(facts, site))}
+    for name in sorted(facts.zones - held - rows - beds - in_names):
         if name in w.COMPASS and w.COMPASS[name] <= pointed:
             continue  # "from the north" or "the northernmost" does not mean a block called "North"
         if not any(name in other for other in held) and not _stands_in(plan, name, site):
@@ -191,6 +234,16 @@ def _areas(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
         yield PlanMismatch(kind="place", what=message("the request names the charger, but the plan does not"))
 
 
+def _is_a_row_of(name: str, plan: PlanFacts) -> bool:
+    """Return True if an area that is named by its number may be one of the rows of a plan: "bed 4", which is row 4."""
+    number = name.rpartition(" ")[2]
+    rows = [x for _, x in plan.having(s.Rows) if isinstance(x, s.Rows)]
+    if not number.isdecimal():
+        return False
+    bounds = [(row.first, row.last) for row in rows if row.first.isdecimal() and row.last.isdecimal()]
+    return any(int(first) <= int(number) <= int(last) for first, last in bounds)
+
+
 def _pointed(plan: PlanFacts) -> set[Side]:
     """Return all compass sides in a plan: of places, counts, directions and orders."""
     held: set[str] = set(plan.sides)
@@ -200,6 +253,12 @@ def _pointed(plan: PlanFacts) -> set[Side]:
         held |= {side for side in _SIDES if any(side[0] in corner for corner in corners)}
         held |= {side for side in _SIDES if side in str(getattr(selector, "by", ""))}
     return {side for side in _SIDES if side in held}
+
+
+def _runs_along(heading: str, side: Side) -> bool:
+    """Return True if a direction of work is that of a side of the compass, or its opposite."""
+    axis = ("north", "south") if side in ("north", "south") else ("east", "west")
+    return any(one in heading for one in axis)
 
 
 def _stands_in(plan: PlanFacts, name: str, site: Site) -> bool:
@@ -229,7 +288,8 @@ def _gates(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
     held = {_name_text(x.gate): node for node, x in plan.having(s.GateIs) if isinstance(x, s.GateIs)}
     held |= {_name_text(only.gate): plan.task.composition.plan.id for only in plan.task.constraints.only_gates}
     for name in dict.fromkeys(_name_text(gate.place.id) for gate in site.gates):
-        if f" {name} " in f" {facts.text} " and not held and name not in facts.zones:
+        near_it = _SOME_HALF.search(facts.text) is not None
+        if f" {name} " in f" {facts.text} " and not held and name not in facts.zones and not near_it:
             yield PlanMismatch(
                 kind="place", what=message("the request names '{name}', but the plan does not", name=name)
             )
@@ -250,9 +310,16 @@ def _tokens(name: str) -> tuple[w.Token, ...]:
     return w.tokens(name.replace("_", " "))
 
 
-def _sides(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
+def _marks_named(facts: RequestFacts, site: Site) -> set[str]:
+    """Return the names of markers and gates in the request: "south door"."""
+    names = {_name_text(one) for _, one in site.marker_names} | {_name_text(gate.place.id) for gate in site.gates}
+    return {name for name in names if name and f" {name} " in f" {facts.text} "}
+
+
+def _sides(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
     """Yield sides of the compass of the request that the plan lacks, and the reverse."""
-    by_name = {word for name in facts.zones for word in name.split()} | set(facts.attributes)
+    by_name = {word for name in (*facts.zones, *_marks_named(facts, site)) for word in name.split()}
+    by_name |= set(facts.attributes)
     spoken = {side for side in facts.sides if not any(side in name for name in by_name)}
     corners = {letter for _, x in plan.having(s.Corners) if isinstance(x, s.Corners) for c in x.which for letter in c}
     orders = {x.by for _, x in plan.having(s.Ordered) if isinstance(x, s.Ordered)}
@@ -260,13 +327,15 @@ def _sides(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     held = (
         set(plan.sides) | counted | {side for side in spoken if side[0] in corners or any(side in by for by in orders)}
     )
+    headings = [work.heading for work in plan.works if work.heading != "any"]
+    held |= {side for side in spoken if any(_runs_along(heading, side) for heading in headings)}
     if not any(x.counts_from_a_side for _, x in plan.selectors):
         for side in sorted(spoken - held):
             yield PlanMismatch(
                 kind="side",
                 what=message("the request says '{side}', but no place of the plan is there", side=side),
             )
-    if facts.unknown or facts.words & w.VAGUE_SIDES or _OTHER_PART.search(facts.text):
+    if facts.unknown or facts.words & w.VAGUE_SIDES or _OTHER_PART.search(facts.text) or _SOME_HALF.search(facts.text):
         return
     around = len(plan.sides) == 4 and not spoken  # each quarter, or the whole edge
     ends = frozenset() if facts.sides else plan.ends_driven
@@ -287,9 +356,11 @@ def _sides(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
             )
 
 
-def _attributes(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
+def _attributes(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
     """Yield attribute values of the request that the plan lacks, and the reverse."""
     held = {" ".join(t.text for t in _tokens(str(value))) for _, _, value in plan.values}
+    for name in {x.first for _, x in plan.having(s.Rows) if isinstance(x, s.Rows) and x.first}:
+        held |= _values_in_row(name, site, shared=True)
     for word in facts.attributes:
         if not any(word in other or other in word for other in held):
             yield PlanMismatch(

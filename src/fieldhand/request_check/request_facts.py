@@ -129,7 +129,7 @@ def request_facts(request: str, robot: RobotProfile, site: Site) -> RequestFacts
     """Return the facts of a request."""
     tokens = w.tokens_of_request(request)
     names = _names(site)
-    zones, covered = _named_zones(tokens, names)
+    zones, covered = _named_zones(tokens, names, _other_names(site))
     attributes = {
         word: k
         for word, k in _phrases(tokens, _kinds(site))
@@ -186,11 +186,23 @@ def _kinds(site: Site) -> set[str]:
     return {word for word in kinds if not set(word.split()) <= w.PLAIN}
 
 
-def _named_zones(tokens: Sequence[Token], names: set[str]) -> tuple[set[str], set[int]]:
-    """Return the names in the request and their tokens; names of plain words only ("row", "end") do not count."""
+def _other_names(site: Site) -> set[str]:
+    """Return the names of markers and gates of several words, in which the name of a zone may stand ("shed door")."""
+    named = (*(name for _, name in site.marker_names), *(gate.place.id for gate in site.gates))
+    return {name for name in map(_norm, named) if " " in name}
+
+
+def _named_zones(tokens: Sequence[Token], names: set[str], others: set[str]) -> tuple[set[str], set[int]]:
+    """Return the names in the request and their tokens; names of plain words only ("row", "end") do not count.
+
+    Other names in which they stand do not count either.
+    """
     found: set[str] = set()
     covered: set[int] = set()
-    for name, k in _phrases(tokens, names):
+    for name, k in _phrases(tokens, names | others):
+        if name not in names:
+            covered.update(range(k, k + len(name.split())))
+            continue
         covered.update(range(k, k + len(name.split())))
         if len(name) > 3 and (len(name.split()) > 1 or name not in w.PLAIN):
             found.add(name)

@@ -76,13 +76,18 @@ _REASON = _pattern((r"because", r"since (?:we|i|it|they|he|she|the|my|our|row|tr
 
 
 def unsupported_words(
-    facts: RequestFacts, periods: Collection[Period] = (), *, by_records: bool = False
+    facts: RequestFacts,
+    periods: Collection[Period] = (),
+    waits: frozenset[float] = frozenset(),
+    *,
+    by_records: bool = False,
 ) -> Iterator[PlanMismatch]:
     """Yield a contradiction for each part of the request that no plan can express, and for times that it lacks.
 
     Args:
         facts: Facts of the request, without the times and periods that the plan holds.
         periods: Periods of earlier missions that the plan holds.
+        waits: Seconds of the waits of the plan, by which it may repeat something ("every ten minutes, six times").
         by_records: True if the plan selects places by what earlier missions, or this one so far, did.
     """
     starts: dict[int, int] = {}
@@ -101,7 +106,10 @@ def unsupported_words(
             told = _is_told(match, facts, sentence, first, last := first + len(match[0].split()), past=past)
             own = pattern is not _DONE and not facts.named.isdisjoint(range(first, last))
             held = any(states(match[0], period) for period in periods)
-            if not told and not remark and not speed and not own and not held:
+            rests = any(
+                first - 1 <= one.index < last and one.kind == "time" and waits & {*one.values} for one in facts.amounts
+            )
+            if not (told or remark or speed or own or held or rests):
                 words = w.quoted(facts.tokens[first:last])
                 yield PlanMismatch(
                     kind="unheld", what=message("the request says '{words}', and {why}", words=words, why=why)

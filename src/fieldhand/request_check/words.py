@@ -77,6 +77,7 @@ SPEEDS = {
 }  # fmt: skip
 AGES = words_in("""
     year years yr yrs month months kg kilo kilos kilogram kilograms lb lbs pound pounds g t ton tons
+    l litre litres liter liters
     """)
 DEGREES = words_in("c f celsius fahrenheit centigrade degree degrees deg °")
 PERCENT = frozenset(["%", "percent", "pct"])
@@ -216,7 +217,15 @@ def is_number(text: str) -> bool:
 
 def singular(word: str) -> str:
     """Return a noun without its plural ending, accurately enough to compare nouns."""
-    for ending, instead in (("leaves", "leaf"), ("ies", "y"), ("sses", "ss"), ("xes", "x"), ("ches", "ch")):
+    for ending, instead in (
+        ("leaves", "leaf"),
+        ("ies", "y"),
+        ("atoes", "ato"),
+        ("sses", "ss"),
+        ("xes", "x"),
+        ("ches", "ch"),
+        ("shes", "sh"),
+    ):
         if word.endswith(ending):
             return word.removesuffix(ending) + instead
     return word.removesuffix("s") if word.endswith("s") and not word.endswith(("ss", "us")) and len(word) > 3 else word

@@ -47,6 +47,11 @@ def say_work(node: WorkAlong, robot: RobotProfile, names: Mapping[str, str]) -> 
         more.append(message("on both sides"))
     elif node.sides != "one":
         more.append(message("on the {side} side", side=COMPASS[node.sides]))
+    if node.heading in ("north_south", "east_west"):
+        lanes = message("lanes running north to south"), message("lanes running east to west")
+        more.append(lanes[node.heading == "east_west"])
+    elif node.heading != "any":
+        more.append(message("driving to the {side}", side=COMPASS[node.heading]))
     if node.laps > 1:
         more.append(message("{count} times", count=node.laps, context="laps"))
     if node.gaps == "on" and node.mode == "rows":

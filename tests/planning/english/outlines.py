@@ -114,6 +114,8 @@ def node(n: p.Node) -> str:
             return f"try [{node(n.body)}] or [{node(n.otherwise)}]"
         case p.OptionalStep():
             return f"maybe [{node(n.body)}]"
+        case p.AnyOrder():
+            return "any order: [" + "; ".join(node(step) for step in n.steps) + "]"
         case p.InOrder():
             return "; ".join(node(step) for step in n.steps)
         case p.Recharge():
@@ -132,6 +134,7 @@ def node(n: p.Node) -> str:
             )
             how += f", {n.sides}" if n.sides != "one" else ""
             how += f", every {n.every}" if n.every != 1 else ""
+            how += f", heading {n.heading}" if n.heading != "any" else ""
             how += f", {n.laps} laps" if n.laps != 1 else ""
             how += ", optional" if n.optional else ""
             return f"{n.action or 'drive'} {n.mode} {selector(n.along)}{how}"

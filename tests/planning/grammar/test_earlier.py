@@ -130,7 +130,7 @@ REFUSED = [
     ("take a picture of the trees we visited", "it does not say when that was"),
     ("take a picture of every tree in row 3 not done last season", "an earlier mission"),
     ("take a picture of the trees visited this morning", "this morning"),
-    ("take pictures of every tree in row 3 except those already done this morning", "this morning"),
+    ("take pictures of every tree in row 3 except those already done this morning", "an earlier mission"),
     ("take a picture of every tree in row 3 that was yellow last week", "last week"),
     ("take a picture of the oldest tree of last week", "last week"),
     ("take a picture of the trees pruned yesterday", "yesterday"),

@@ -281,7 +281,7 @@ REFUSED = [
     (VINEYARD, "take pictures of the gaps in row 1 of the north block", "nothing on this site matches the gaps"),
     (VINEYARD, "sample leaves on a 10 by 20 m grid", ""),
     (MEADOW, "take a picture of tree 4", "there is no tree '4'"),
-    (MEADOW, "take pictures of all trees", "nothing on this site matches every tree"),
+    (MEADOW, "take pictures of all trees", "this site records no plants: every tree"),
     (MEADOW, "photograph row 3", ""),
     (MEADOW, "take a picture of each missing tree", ""),
     (MEADOW, "take 5 pictures per row", ""),

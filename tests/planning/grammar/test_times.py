@@ -13,6 +13,8 @@ from fieldhand.site.loader import open_site
 from planning.english.outlines import outline, timing
 
 PLANNER = EnglishPlanner()
+FRIDAY_AFTERNOON = "day=fri not_before=14:00 done_by=17:00"
+TOMORROW_MORNING = "day=tomorrow not_before=06:30 not_after=06:45"
 DEMO, HUSKY = open_site("demo"), load_robot("husky")
 
 #: Times, and what they say where they stand in a request.
@@ -163,3 +165,67 @@ def test_times_that_are_not_clear_are_refused_or_asked(request_: str) -> None:
 )
 def test_other_numbers_are_no_times(request_: str) -> None:
     assert without_times(words_of(request_)) is None
+
+
+@pytest.mark.parametrize(
+    ("request_", "meant"),
+    [
+        ("Tomorrow, not before ten, measure CO2 at tree 4.", "day=tomorrow not_before=10:00"),
+        ("After 7 this evening, measure CO2 at tree 4.", "day=today not_before=19:00"),
+        ("Measure CO2 at tree 4 tonight at eleven.", "day=today not_before=23:00 not_after=23:15"),
+        ("Tomorrow morning, no earlier than seven, measure CO2 at tree 4.", "day=tomorrow not_before=07:00"),
+        ("Measure CO2 at tree 4 before nine tomorrow.", "day=tomorrow done_by=09:00"),
+        ("Read CO2 at tree 4 on Friday between two and five in the afternoon.", FRIDAY_AFTERNOON),
+        ("Start at half past six tomorrow morning and measure CO2 at tree 4.", TOMORROW_MORNING),
+        ("Wait until eight this evening, then measure CO2 at tree 4.", "day=today not_before=20:00"),
+        ("As soon as the sun is up, measure CO2 at tree 4.", "not_before=sunrise not_after=sunrise+15"),
+        ("Once it gets dark, measure CO2 at tree 4.", "not_before=dusk not_after=dusk+15"),
+        ("Each night at ten for a fortnight, measure CO2 at tree 4.", "at=22:00 last_day=+13"),
+        ("Twice a day, at six in the morning and six in the evening, measure CO2 at tree 4.", "at=06:00,18:00"),
+        ("Every third morning at sunrise, measure CO2 at tree 4.", "at=sunrise every_days=3"),
+        ("Once an hour between eight and four, measure CO2 at tree 4.", "at=08:00 every_min=60 until=16:00"),
+    ],
+)  # fmt: skip
+def test_an_hour_beside_a_day_is_a_time(request_: str, meant: str) -> None:
+    found = PLANNER.plan(request_, DEMO, HUSKY)
+    assert isinstance(found, Planned), found
+    assert outline(found.task) == f"co2 @ TreeIs(4) | {meant}"
+
+
+@pytest.mark.parametrize(
+    ("request_", "choices"),
+    [
+        ("From eight tomorrow, measure CO2 at tree 4.", ("at 08:00", "at 20:00")),
+        ("Every weekday at seven, measure CO2 at tree 4.", ("at 07:00", "at 19:00")),
+        ("First thing tomorrow, measure CO2 at tree 4.", ("at 06:00", "at 08:00", "at sunrise")),
+    ],
+)
+def test_an_hour_that_may_be_in_the_evening_is_asked(request_: str, choices: tuple[str, ...]) -> None:
+    asked = PLANNER.plan(request_, DEMO, HUSKY)
+    assert isinstance(asked, Clarify)
+    assert asked.choices == choices
+    for answer in choices:
+        given = PLANNER.plan(request_, DEMO, HUSKY, (Answer(question=asked.question, answer=answer),))
+        assert isinstance(given, Planned)
+        assert given.task.timing is not None
+        assert answer.removeprefix("at ") in " ".join(timing(given.task.timing))
+
+
+def test_an_hour_that_is_taken_as_usual_is_stated() -> None:
+    found = PLANNER.plan("Tomorrow, not before ten, measure CO2 at tree 4.", DEMO, HUSKY)
+    assert isinstance(found, Planned)
+    assert "The hour is taken as 10:00." in found.task.command.assumptions
+
+
+@pytest.mark.parametrize(
+    "request_",
+    [
+        "Tomorrow at 5 yellow trees measure CO2.",
+        "Measure CO2 at tree 4 tomorrow at 5 other trees.",
+        "This evening measure CO2 at tree 4, then at 7 this evening at tree 9.",
+        "Tomorrow morning at 17:30 measure CO2 at tree 4.",
+        "Twice a day, at six in the morning, measure CO2 at tree 4.",
+    ],
+)
+def test_a_number_that_is_no_hour_is_not_read_as_one(request_: str) -> None:
+    assert not isinstance(PLANNER.plan(request_, DEMO, HUSKY), Planned)

@@ -199,7 +199,7 @@ PARAMETERS = {
 NOT_PLANNED = {
     "Photograph tree 100, then tree 23. The order doesn't matter.": "are these two steps, or one round?",
     "Photograph the first six trees of row 9 from the south end.": "the first from the south, or trees 1 to 6?",
-    "Take a picture of every second tree in row 9 starting with the last.": "counted from the last, or from the first?",
+    "Take a picture of every second tree in row 10 starting with the last.": "counted from the last, or from the 1st?",
     "Photograph every other tree of rows 2 to 4, starting in the east.": "the trees are counted along the rows",
     "Take CO2 readings along row 5, 15 m apart, four of them.": "four along the row, or four more?",
     "Photograph every tree of row 5. Every 20 m, read CO2.": "every 20 m along which line?",

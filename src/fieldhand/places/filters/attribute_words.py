@@ -35,6 +35,9 @@ def say_with_article(name: str) -> str:
 def say_whose(attribute: str, test: Test, value: Value) -> str:
     """Return a filter as a clause: "whose age is above 10 years", "whose leaf color is not yellow"."""
     name, unit = say_attribute(attribute)
+    if isinstance(value, bool) and test in ("eq", "ne"):
+        marked = value == (test == "eq")
+        return message("marked as “{name}”", name=name) if marked else message("not marked as “{name}”", name=name)
     amount = _amount(value, unit)
     match test:
         case "eq":

@@ -21,6 +21,7 @@ from fieldhand.site.feature_kinds import phrase
 from fieldhand.site.model import Place, Site
 from fieldhand.site.names import short
 from fieldhand.site.point_index import PointIndex
+from fieldhand.terms import AreaPart
 
 #: Preferred distance in metres of free points from keep-out zones and the boundary.
 MARGIN_M = 1.0
@@ -32,6 +33,9 @@ OFF_TREES_M = 1.0
 MOST_POINTS = 10_000
 
 Floats = NDArray[np.float64]
+
+#: Sides of the quarters.
+_CORNER_SIDES = {"nw": ("north", "west"), "ne": ("north", "east"), "se": ("south", "east"), "sw": ("south", "west")}
 
 
 def free_points(site: Site, xy: Floats, ids: Sequence[str]) -> PlaceGroup:
@@ -68,6 +72,19 @@ def area_called(site: Site, name: str) -> BaseGeometry:
     if block is None:
         raise no_such_zone(site, name)
     return area_around(site.xy[np.concatenate([row.trees for row in block.rows])], site.spacing_m / 2)
+
+
+def part_of_area(area: BaseGeometry, part: AreaPart) -> BaseGeometry:
+    """Return a half or a quarter of an area, by the middle lines of its extent along true north."""
+    if part == "all" or area.is_empty:
+        return area
+    west, south, east, north = area.bounds
+    wanted = _CORNER_SIDES.get(part, (part,))
+    west = (west + east) / 2 if "east" in wanted else west
+    east = (area.bounds[0] + east) / 2 if "west" in wanted else east
+    south = (south + north) / 2 if "north" in wanted else south
+    north = (area.bounds[1] + north) / 2 if "south" in wanted else north
+    return area.intersection(shapely.box(west, south, east, north))
 
 
 def _whole_site(site: Site) -> BaseGeometry:

@@ -8,7 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from shapely.geometry import LineString
+from shapely.geometry import LineString, Polygon
+from shapely.geometry.polygon import orient
+from shapely.ops import unary_union
 
 from fieldhand import language
 from fieldhand.errors import PlaceError
@@ -18,6 +20,7 @@ from fieldhand.places.place_errors import too_few
 from fieldhand.places.place_group import PlaceGroup
 from fieldhand.places.points.free_ground import MOST_POINTS, area_called, free_part, free_points, segments
 from fieldhand.places.resolution_notes import ResolutionNotes
+from fieldhand.site.feature_kinds import phrase
 from fieldhand.site.model import Site
 from fieldhand.site.rectangle import named_corners, smallest_rectangle
 
@@ -25,6 +28,12 @@ if TYPE_CHECKING:
     from fieldhand.places.points.transect import Transect
 
 Floats = NDArray[np.float64]
+
+#: Distance in metres of points along an edge from it.
+_OFF_EDGE_M = 1.5
+
+#: Distance in metres within which a point of an edge is moved to free ground.
+_NEAR_M = 100.0
 
 #: Maximum number of legs of a zigzag.
 MOST_LEGS = 200
@@ -68,11 +77,13 @@ def points_on_path(site: Site, selector: Transect, notes: ResolutionNotes) -> Pl
     Raises:
         PlaceError: There is no such zone, no space in it, or the number of points or legs is not possible.
     """
-    area = area_called(site, selector.zone)
-    free = free_part(site, area)
-    path = [
-        piece for line in _path(shapely.get_coordinates(area), selector) for piece in segments(line.intersection(free))
-    ]
+    if selector.shape == "edge":
+        path = _edge(site, selector.zone)
+    else:
+        area = area_called(site, selector.zone)
+        free = free_part(site, area)
+        lines = _path(shapely.get_coordinates(area), selector)
+        path = [piece for line in lines for piece in segments(line.intersection(free))]
     if not path:
         raise PlaceError(
             message("there is no free ground along that path"),
@@ -80,6 +91,8 @@ def points_on_path(site: Site, selector: Transect, notes: ResolutionNotes) -> Pl
             advice=message("all of it is inside keep-outs or outside the boundary"),
         )
     xy = _along(path, selector)
+    if selector.shape == "edge":
+        xy = _beside_edge(site, xy, selector)
     notes.rule = message("the path is {metres} m long", metres=say_rounded(sum(piece.length for piece in path)))
     count = len(xy)
     if selector.zone:
@@ -90,6 +103,40 @@ def points_on_path(site: Site, selector: Transect, notes: ResolutionNotes) -> Pl
     else:
         names = [message("point {number} of {count}", number=k, count=count) for k in range(1, count + 1)]
     return free_points(site, xy, names)
+
+
+def _beside_edge(site: Site, xy: Floats, selector: Transect) -> Floats:
+    """Return points along an edge, those that are not free moved to the nearest free ground.
+
+    At a spacing, those that would move by more than half of it are left out: an edge outside of the boundary has none.
+    """
+    (west, south), (east, north) = xy.min(axis=0) - _NEAR_M, xy.max(axis=0) + _NEAR_M
+    free = free_part(site, shapely.box(west, south, east, north))
+    points = shapely.points(xy)
+    ends = shapely.get_coordinates(shapely.shortest_line(points, free)).reshape(-1, 2, 2)
+    moved = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+    near = moved <= selector.apart_m / 2.0 if selector.apart_m else np.ones(len(xy), dtype=bool)
+    stands: Floats = ends[near, 1]
+    return stands
+
+
+def _edge(site: Site, zone: str) -> list[LineString]:
+    """Return the pieces of the edge of a zone or the site, inside of it, clockwise from its north-west.
+
+    Around a keep-out they lie outside of it.
+
+    Raises:
+        PlaceError: There is no such zone.
+    """
+    outs = [z.polygon for z in site.zones_of("keep_out") if zone and phrase(z.name) == phrase(zone)]
+    area = unary_union(outs).buffer(_OFF_EDGE_M) if outs else area_called(site, zone).buffer(-_OFF_EDGE_M)
+    found: list[LineString] = []
+    for part in shapely.get_parts(area):
+        at = list(orient(part, sign=-1.0).exterior.coords)[:-1] if isinstance(part, Polygon) else []
+        if at:
+            first = int(np.argmin(np.asarray(at) @ np.array([1.0, -1.0])))
+            found.append(LineString([*at[first:], *at[: first + 1]]))
+    return found
 
 
 def _path(xy: Floats, selector: Transect) -> list[LineString]:

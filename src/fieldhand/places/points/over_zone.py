@@ -21,6 +21,7 @@ from fieldhand.places.points.free_ground import (
     free_part,
     free_points,
     off_trees,
+    part_of_area,
 )
 from fieldhand.places.resolution_notes import ResolutionNotes
 from fieldhand.site.model import Site
@@ -55,7 +56,7 @@ def over_zone(site: Site, selector: PointsIn, notes: ResolutionNotes) -> PlaceGr
             message("{count} points in a zone is not possible", count=count),
             advice=message("ask for 1 to {count}", count=MOST_POINTS),
         )
-    area = area_called(site, selector.zone)
+    area = part_of_area(area_called(site, selector.zone), selector.part)
     free = free_part(site, area)
     zone = selector.zone or message("the site")
     if selector.random:

@@ -6,10 +6,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldhand.language import counted, message
-from fieldhand.language.words import say_zone
+from fieldhand.language.words import CORNERS, SIDES, say_zone
 from fieldhand.places.count_range import ANY, CountRange, exactly
 from fieldhand.places.noun_phrase import NounPhrase, many, one
 from fieldhand.places.selector import Selector
+from fieldhand.terms import AreaPart, Side
 
 if TYPE_CHECKING:
     from fieldhand.places.place_group import PlaceGroup
@@ -22,12 +23,13 @@ if TYPE_CHECKING:
 @dataclass(frozen=True, kw_only=True)
 class PointsIn(Selector):
     """``count`` free points spread evenly over a zone, or over the whole site without one; one point is its middle.
-    With ``random``, drawn by ``seed``."""
+    With ``random``, drawn by ``seed``. With ``part``, in that half or quarter of it."""
 
     zone: str = ""
     count: int = 1
     random: bool = False
     seed: int = 0
+    part: AreaPart = "all"
 
     @classmethod
     def example(cls, site: Site) -> PointsIn:
@@ -40,6 +42,10 @@ class PointsIn(Selector):
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
         zone = say_zone(self.zone) if self.zone else message("the site")
+        if self.part in SIDES:
+            zone = message("the {northern} half of {zone}", northern=SIDES[self.part], zone=zone)
+        elif self.part in CORNERS:
+            zone = message("the {north_west} quarter of {zone}", north_west=CORNERS[self.part], zone=zone)
         if self.random:
             points = counted("{count} point", "{count} points", self.count)
             text = message(
@@ -53,6 +59,11 @@ class PointsIn(Selector):
     @property
     def single(self) -> bool:
         return self.count == 1
+
+    @property
+    def sides(self) -> tuple[Side, ...]:
+        sides: tuple[Side, ...] = ("north", "east", "south", "west")
+        return tuple(side for side in sides if side == self.part or (self.part in CORNERS and side[0] in self.part))
 
     @property
     def size(self) -> CountRange:

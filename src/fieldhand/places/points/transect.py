@@ -1,4 +1,4 @@
-"""Selector of plants, or free points, along a sampling path across an area: a W, a zigzag, a Z, an X."""
+"""Selector of plants, or free points, along a sampling path across an area: a W, a zigzag, a Z, an X, or its edge."""
 
 from __future__ import annotations
 
@@ -20,15 +20,17 @@ if TYPE_CHECKING:
     from fieldhand.places.wording import SelectorWording
     from fieldhand.site.model import Site
 
-#: Form of the path: alternating from one long side of the area to the other, or the letter Z or X in its corners.
-PathShape = Literal["zigzag", "z", "x"]
+#: Form of the path: alternating from one long side of the area to the other, the letter Z or X in its corners, or its
+#: edge.
+PathShape = Literal["zigzag", "z", "x", "edge"]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Transect(FromGroup):
     """``count`` trees of ``of`` nearest to equally spaced points, or to points ``apart_m`` metres apart, of a path
     across it: a ``zigzag`` of ``legs`` (4 are a W, 1 is a diagonal), a ``z`` or an ``x``. With ``zone``, free points in
-    that zone; without trees, on the whole site."""
+    that zone; without trees, on the whole site. Along an ``edge``, always free points: inside the edge of the zone or
+    the site, outside that of a keep-out."""
 
     count: int = 0
     apart_m: float = 0.0
@@ -47,7 +49,7 @@ class Transect(FromGroup):
     def resolve(self, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.points.on_path import points_on_path
 
-        if self.zone or not resolution.site.trees:
+        if self.zone or self.shape == "edge" or not resolution.site.trees:
             return points_on_path(resolution.site, self, notes)
         return super().resolve(resolution, notes)
 
@@ -64,6 +66,8 @@ class Transect(FromGroup):
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
         path, group = self._path, wording.phrase(self.of)
+        if self.shape == "edge":
+            return self._along_edge()
         over = say_zone(self.zone) if self.zone else group.group()
         if self.apart_m:
             text = message(
@@ -75,6 +79,16 @@ class Transect(FromGroup):
             text = message("{points} along {path} across {area}", points=points, path=path, area=over)
         else:
             text = message("{count} of {trees}, along {path} across them", count=self.count, trees=over, path=path)
+        return one(text) if self.count == 1 else many(text)
+
+    def _along_edge(self) -> NounPhrase:
+        area = say_zone(self.zone) if self.zone else message("the whole site")
+        if self.apart_m:
+            return many(
+                message("every {metres} m along the edge of {area}", metres=say_number(self.apart_m), area=area)
+            )
+        points = counted("{count} point", "{count} points", self.count)
+        text = message("{points} along the edge of {area}", points=points, area=area)
         return one(text) if self.count == 1 else many(text)
 
     @property

@@ -22,6 +22,7 @@ _PAST = {
     "leave": "left",
     "spend": "spent",
     "burn": "burnt",
+    "mow": "mown",
 }
 _DOUBLED = frozenset({"get", "grab", "run", "stop", "snap", "quit", "begin", "travel", "scan", "clip", "dig", "cut"})
 _VOWELS = "aeiou"

@@ -1,4 +1,4 @@
-"""What a robot has no action for, though robots can do it: named by the words of the built-in profiles.
+"""Actions that a robot lacks and others have, by the words of the built-in profiles.
 
 "Measure CO2" asked of a robot without that sensor is understood; what is missing is an action of the profile.
 """

@@ -9,6 +9,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from fieldhand.planning.english.naming import NameEntry, Phrase, parameter_entries, robot_entries, site_entries, split
+from fieldhand.planning.english.place_words import short_names
+from fieldhand.planning.english.plant_words import beds_that_are_rows, plant_entries, priced
 from fieldhand.planning.english.shared import shared_vocabulary
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -30,12 +32,14 @@ class Lexicon:
         trees: Ids of trees that are not plain numbers, as the lexicon knows words.
         site: Whose rows and blocks may have names; they are looked for only where a row or a block is spoken of.
         attributes: Attributes of the site that a word of the robot calls as well ("leaves" of a leaf sampler).
+        beside: What phrases are on this site beside what they are anyway ("bed", a row where rows are beds).
     """
 
     own: Mapping[Phrase, NameEntry]
     trees: Mapping[str, str]
     site: Site
     attributes: Mapping[Phrase, NameEntry] = field(default_factory=dict)
+    beside: Mapping[Phrase, tuple[NameEntry, ...]] = field(default_factory=dict)
 
     @cached_property
     def longest(self) -> int:
@@ -45,7 +49,7 @@ class Lexicon:
     @cached_property
     def vocabulary(self) -> frozenset[str]:
         """Every word that stands in some phrase, names of rows, blocks and trees among them."""
-        words = {word for phrase in (*self.own, *shared_vocabulary()) for word in phrase}
+        words = {word for phrase in (*self.own, *self.beside, *shared_vocabulary()) for word in phrase}
         names = [*self.trees, *self.row_names, *self.block_names]
         return frozenset({*words, *names, *(part for name in names for part in split(name))})
 
@@ -62,6 +66,10 @@ class Lexicon:
     def block_names(self) -> Mapping[str, str]:
         """Names of blocks that are not plain numbers."""
         return {_spelt(block.name): block.name for block in self.site.planting.blocks if not block.name.isdigit()}
+
+    def is_zone(self, name: str) -> bool:
+        """Return True if a zone has a name."""
+        return any(split(zone.name) == split(name) for zone in self.site.zones)
 
     @cached_property
     def codes(self) -> frozenset[str]:
@@ -101,9 +109,11 @@ def lexicon_for(robot: RobotProfile, site: Site) -> Lexicon:
 def _lexicon_of(robot: RobotProfile, site: Site) -> Lexicon:
     own: dict[Phrase, NameEntry] = {}
     attributes: dict[Phrase, NameEntry] = {}
+    rows_too = beds_that_are_rows(site)
     for phrase, entry in site_entries(site):
-        if phrase not in shared_vocabulary():
-            own.setdefault(phrase, entry)
+        known = own.get(phrase)
+        if phrase not in shared_vocabulary() and (known is None or (known.kind, entry.kind) == ("ATTRVAL", "ZONE")):
+            own[phrase] = priced(entry, rows_too)  # "warm section", an area rather than the value of an attribute
     for phrase, entry in parameter_entries(robot):
         if phrase not in shared_vocabulary():
             own.setdefault(phrase, entry)
@@ -121,7 +131,13 @@ def _lexicon_of(robot: RobotProfile, site: Site) -> Lexicon:
         if lexicon.entry((word,)) is None and len(site.attributes[value[0]]) > 1
     }
     own |= {phrase: NameEntry(kind="ATTRVAL", value=(value,)) for phrase, value in short.items()}
-    return Lexicon(own=own, trees=odd, site=site, attributes=attributes)
+    beside: dict[Phrase, tuple[NameEntry, ...]] = {}
+    for phrase, entry in (*plant_entries(site, rows_too), *short_names(site)):
+        shared = shared_vocabulary().get(phrase)
+        is_plant = shared is not None and shared.kind == "TREE"  # a file that says of each vine that it is one
+        if not is_plant and entry != own.get(phrase) and entry not in beside.get(phrase, ()):
+            beside[phrase] = (*beside.get(phrase, ()), entry)
+    return Lexicon(own=own, trees=odd, site=site, attributes=attributes, beside=beside)
 
 
 def _spelt(name: str) -> str:

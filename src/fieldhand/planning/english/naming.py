@@ -5,10 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import product
 from typing import Any
 
 from fieldhand.planning.english.inflection import forms_of, plural_of
 from fieldhand.planning.english.vocabulary import vocabulary
+from fieldhand.robot.implement import rate_unit
 from fieldhand.robot.model import Action, RobotProfile
 from fieldhand.site.model import Site
 
@@ -28,11 +30,16 @@ _WATERS = frozenset({"pond", "lake", "reservoir", "pool", "basin", "dam", "lagoo
 
 @dataclass(frozen=True, kw_only=True)
 class NameEntry:
-    """The meaning of a phrase: a terminal of the grammar, its value, and whether it is a noun in the plural."""
+    """The meaning of a phrase: a terminal of the grammar, its value, and whether it is a noun in the plural.
+
+    Attributes:
+        cost: Price of the meaning, higher for one that is less likely than another of the same words.
+    """
 
     kind: str
     value: Any = None
     plural: bool = False
+    cost: float = 1.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -102,6 +109,8 @@ def parameter_entries(robot: RobotProfile) -> Iterator[tuple[Phrase, NameEntry]]
             names.setdefault(phrase, []).append(parameter.name)
         if parameter.unit:
             yield split(parameter.unit), NameEntry(kind="UNIT", value=(parameter.unit, 1.0, 0.0))
+            for said, factor in rate_words(parameter.unit):
+                yield said, NameEntry(kind="UNIT", value=(parameter.unit, factor, 0.0))
     for phrase, meant in choices.items():
         yield phrase, NameEntry(kind="CHOICE", value=tuple(meant))
         yield _plural(phrase), NameEntry(kind="CHOICE", value=tuple(meant), plural=True)
@@ -110,6 +119,19 @@ def parameter_entries(robot: RobotProfile) -> Iterator[tuple[Phrase, NameEntry]]
             yield phrase, NameEntry(kind="PARAMETER", value=tuple(found))
             if _plural(phrase) not in names:
                 yield _plural(phrase), NameEntry(kind="PARAMETER", value=tuple(found), plural=True)
+
+
+def rate_words(unit: str) -> Iterator[tuple[Phrase, float]]:
+    """Yield the unit of a rate in words, with what one of it is in that unit: "litres per hectare" for ``l/ha``."""
+    rate = rate_unit(unit)
+    if rate is None:
+        return
+    words = vocabulary()["rates"]
+    amounts = words["amounts"].get(rate.amount, [rate.amount])
+    per = rate.area_m2 or rate.length_m
+    for size in words["areas" if rate.area_m2 else "lengths"]:
+        for amount, joint, of in product(amounts, words["joints"], size["words"]):
+            yield split(f"{amount} {joint} {of}"), round(per / size["size"], 9)
 
 
 def site_entries(site: Site) -> Iterator[tuple[Phrase, NameEntry]]:

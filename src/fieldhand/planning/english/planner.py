@@ -72,7 +72,7 @@ class EnglishPlanner:
     ) -> Outcome | None:
         """Plan a request that says when the mission runs; None if it says no such time."""
         from fieldhand.planning.grammar.reader import composed
-        from fieldhand.planning.grammar.times import asked_time, with_answer, without_times
+        from fieldhand.planning.grammar.times import asked_time, assumed_times, with_answer, without_times
 
         times = without_times(words, _earlier(words, site, robot))
         if times is None:
@@ -84,7 +84,7 @@ class EnglishPlanner:
             return None
         answered = with_answer(times.part, answers)
         part = times.part if answered is None else answered[0]
-        timing = part.timing(times.said, zone="")
+        timing = part.provisional.timing(times.said, zone="")
         if timing is None:
             return None
         outcome = composed(request, site, robot, answers=answers, words=times.words, timing=timing)
@@ -95,10 +95,12 @@ class EnglishPlanner:
         asked = asked_time(part)
         if asked is not None:
             return Clarify(question=asked[0], choices=asked[1], planner=NAME, free=True)
-        if answered is None:
+        assumed = assumed_times(part)
+        if answered is None and not assumed:
             return outcome
         command = outcome.task.command
-        told = replace(command, assumptions=(answered[1].sentence(), *command.assumptions))
+        said = assumed if answered is None else (answered[1].sentence(), *assumed)
+        told = replace(command, assumptions=(*said, *command.assumptions))
         return replace(outcome, task=replace(outcome.task, command=told))
 
 

@@ -13,7 +13,7 @@ _TOKEN = re.compile(
     r"(?P<rank>\d+(?:st|nd|rd|th)\b)"
     r"|(?P<number>\d{1,3}(?:,\d{3})+(?![\d])|\d+(?:\.\d+)?|(?<![\w.])\.\d+)"
     r"|(?P<word>(?<=\d)['\u2019]s\b|(?:nos?|nr)\.(?=\s*[a-z]?\d)|i\.\s?e\.|viz\.|(?:mrs?|ms|dr|prof)\.(?=\s+(?-i:[A-Z]))|w/o?(?=[\s\d])|@(?=\s|\w)"
-    r"|~(?=\s?\d)|\u00d7\d+|o['\u2019](?=\s)|(?:temps?|approx|deg|avg|mins?|hrs?|secs?|incl|excl)\.(?=\s+(?-i:[a-z0-9]))(?!\s+(?:take|go|drive|snap|then|if|photo|get|grab|move|after|when|once|otherwise|repeat|and\sthen)\w*\b)|(?:l|ml|g|kg|m|km|cm|ft)/(?:ha|h|s|min|m2|tree)\b|[^\W\d_][\w\u2080-\u2089]*(?:['\u2019][^\W\d_]+)?)"
+    r"|~(?=\s?\d)|\u00d7\d+|o['\u2019](?=\s)|(?:temps?|approx|deg|avg|mins?|hrs?|secs?|incl|excl)\.(?=\s+(?-i:[a-z0-9]))(?!\s+(?:take|go|drive|snap|then|if|photo|get|grab|move|after|when|once|otherwise|repeat|and\sthen)\w*\b)|(?:l|ml|g|kg|m|km|cm|ft)/(?:ha|h|s|min|m2|tree)\b|(?<=[a-z])/(?=(?:ha|hectare|acre)\b)|[^\W\d_][\w\u2080-\u2089]*(?:['\u2019][^\W\d_]+)?)"
     r"|(?P<unit>%|°\s?[cCfF]\b|°)"
     r"|(?P<stop>[.;!?\n]+)"
     r"|(?P<comma>[,:()]|(?<!\d)\s[-\u2013\u2014]+\s|\s[-\u2013\u2014]+\s(?![a-z]?\d)|[-=]>|\u2192)"

@@ -149,7 +149,8 @@ def _is_of_whole_request(wish: Wish, words: Sequence[Word]) -> bool:
 def wishes(words: Sequence[Word], lexicon: Lexicon) -> list[Wish]:
     """Return all wishes, but for those that the robot or the site has a word for ("mow" on a robot that mows)."""
     own = _own_phrases(lexicon)
-    return _longest([wish for wish in _found(words, wish_kinds()) if not _is_own(wish, words, own)])
+    attributes = frozenset(phrase for phrase, entry in lexicon.own.items() if entry.kind == "ATTR")
+    return _longest([wish for wish in _found(words, wish_kinds()) if not _is_own(wish, words, own, attributes)])
 
 
 def _is_past(word: Word) -> bool:
@@ -182,14 +183,18 @@ def _own_phrases(lexicon: Lexicon) -> frozenset[Phrase]:
     return frozenset(phrase for phrase in {*lexicon.own, *names} if phrase)
 
 
-def _is_own(wish: Wish, words: Sequence[Word], own: frozenset[Phrase]) -> bool:
-    """Return True if the robot or the site has a word for what is wished for: its verb, or its last noun."""
+def _is_own(wish: Wish, words: Sequence[Word], own: frozenset[Phrase], attributes: frozenset[Phrase]) -> bool:
+    """Return True if the robot or the site has a word for what is wished for: its verb, or its last noun.
+
+    An attribute of the site's plants is none for a reading of more words: "measure the soil moisture".
+    """
     if wish.kind.early:
         return False
     norms = tuple(word.norm for word in words[wish.first : wish.last])
     if wish.kind.begins:
         return any(norms[:length] in own for length in range(1, len(norms) + 1))
-    return any(norms[-length:] in own for length in range(1, len(norms) + 1))
+    named = [norms[-length:] for length in range(1, len(norms) + 1) if norms[-length:] in own]
+    return any(phrase not in attributes or len(phrase) == len(norms) for phrase in named)
 
 
 @cache

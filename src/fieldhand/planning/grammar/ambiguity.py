@@ -130,7 +130,10 @@ def _question_of_ways(plans: Sequence[Planned], request: str) -> PlanQuestion | 
         answer = capitalised(joined(" ", say_ways(plan.task.constraints)))
         left[answer] = (*left.get(answer, ()), plan)
     limits = [plan.task.constraints for plan in plans]
-    spans = [span for of in limits for rule in (*of.avoid, *of.slow) for span in rule.said]
+    said = [one.said for of in limits for one in of.avoid]
+    said += [one.said for of in limits for one in of.only_gates]
+    said += [one.said for of in limits for one in of.slow]
+    spans = [span for of_rule in said for span in of_rule]
     if len(left) < 2 or not spans:
         return None
     start, end = min(start for start, _ in spans), max(end for _, end in spans)

@@ -91,6 +91,7 @@ class EnglishPhrases:
         own = more_words().get(phrase) or more_words().get(in_full, ())
         if known is not None and known.kind == "FILLER" and any(one.kind in _SAY_SOMETHING for one in own):
             known = None
+        yield from self.lexicon.beside.get(phrase, ())
         if known is not None and known.kind == "WORKV":
             yield known  # "film row 3" is a recording, not a picture, where the robot records
             return
@@ -107,6 +108,10 @@ class EnglishPhrases:
             same = None if meant is None else self.lexicon.entry(split(meant))
             if same is not None:
                 yield same
+        asked_how = _asked_how().get(phrase)
+        told_by = None if asked_how is None else self.lexicon.entry(asked_how)
+        if told_by is not None and told_by.kind == "NOUN":
+            yield replace(told_by, kind="ASKHOW")
         medium = _own()["media"].get(" ".join(phrase))
         reading = None if medium is None else self.lexicon.entry(split(medium))
         if reading is not None:
@@ -146,6 +151,13 @@ def _asked_by_adjective() -> Mapping[Phrase, Phrase]:
 
 
 @cache
+def _asked_how() -> Mapping[Phrase, Phrase]:
+    """Return the names of readings by the questions for them, asked of an area: "how wet"."""
+    table = _own()["asked_of_area"]
+    return {split(f"how {adjective}"): split(reading) for reading, said in table.items() for adjective in said}
+
+
+@cache
 def more_words() -> Mapping[Phrase, tuple[NameEntry, ...]]:
     """Return the nouns that are verbs as well, and the words of english.toml, by phrase."""
     found: dict[Phrase, list[NameEntry]] = defaultdict(list)
@@ -171,6 +183,9 @@ def more_words() -> Mapping[Phrase, tuple[NameEntry, ...]]:
             found[split(phrase)].append(NameEntry(kind=kind, value=tuple(route)))
     for phrase, value in own["bounds"].items():
         found[split(phrase)].append(NameEntry(kind="BOUND", value=tuple(value)))
+    for hint, phrases in own["dimensions"].items():
+        for phrase in phrases:
+            found[split(phrase)].append(NameEntry(kind="DIMENSION", value=hint))
     for of, phrases in own["statistics"].items():
         for phrase in phrases:
             found[split(phrase)].append(NameEntry(kind="STATISTIC", value=of))

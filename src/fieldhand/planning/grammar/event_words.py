@@ -98,6 +98,8 @@ def _clauses_of(event: MonitoredEvent) -> Iterator[tuple[str, re.Pattern[str]]]:
     if event.unit:
         for kind in _TESTS:
             yield kind, _pattern(said[kind], event)
+    if event.unit and (own := _own_states(event)):
+        yield "above", _pattern(said["own_above"], event, own)
     if event.can_hold and not event.unit and (event.verbs or not event.states):
         yield "holds", _pattern(said["noun"], event)
     if event.can_hold and event.verbs:
@@ -125,7 +127,7 @@ def _nouns_of(event: MonitoredEvent) -> Iterator[tuple[str, re.Pattern[str]]]:
         for kind in _TESTS:
             yield kind, _pattern(said[kind], event)
     elif event.can_hold and not event.states:
-        yield "holds", _pattern(["{det}{noun}(?: {where})?"], event)
+        yield "holds", _pattern(["{det}{noun}(?: (?:who|that|which) {be})?(?: {where})?"], event)
     if event.can_hold and event.states:
         yield "holds", _pattern(["{det}{state} {noun}"], event)
     if event.can_hold and event.verbs:
@@ -146,6 +148,7 @@ def _pattern(forms: Sequence[str], event: MonitoredEvent, states: Sequence[str] 
         "verb": _any([form for verb in event.verbs for form in forms_of(verb)]),
         "state": _any(states or event.states),
         "opposite": _any([word for state in states or event.states for word in phrases()["opposites"].get(state, ())]),
+        "more": _any([*map(_more, states), *(f"more {state}" for state in states)]),
         "units": _any([*units, event.unit] if event.unit else units),
     }
 
@@ -165,6 +168,11 @@ def _numbered(pattern: str, name: str) -> str:
     """Return a pattern whose groups of one name are numbered, since a name can stand only once."""
     parts = pattern.split(f"(?P<{name}>")
     return parts[0] + "".join(f"(?P<{name}{k}>{part}" for k, part in enumerate(parts[1:]))
+
+
+def _more(state: str) -> str:
+    """Return the comparative of a state: "windier"."""
+    return f"{state[:-1]}ier" if state.endswith("y") else f"{state.removesuffix('e')}er"
 
 
 def _any(words: Sequence[str]) -> str:
@@ -202,8 +210,23 @@ def _response_words() -> Mapping[tuple[str, ...], tuple[str, ...]]:
     return found
 
 
+@cache
+def _response_patterns() -> tuple[tuple[str, re.Pattern[str]], ...]:
+    """Return the patterns of triggers and responses, with their categories."""
+    table = phrases()["responses"]
+    parts = {name: part for name, part in table.items() if isinstance(part, str)}
+    found: list[tuple[str, re.Pattern[str]]] = []
+    for category, forms in table.items():
+        if isinstance(forms, list):
+            pattern = "|".join(re.sub(r"\{([a-z]+)\}", lambda match: parts[match[1]], form) for form in forms)
+            found.append((category, re.compile(rf"(?<!\S)(?:{pattern})(?!\S)")))
+    return tuple(found)
+
+
 def response_words(words: Sequence[Word]) -> Iterator[tuple[str, int, int]]:
     """Yield each phrase of a trigger or response among words: its category, and the range of its words."""
+    for category, pattern in _response_patterns():
+        yield from ((category, first, last) for first, last in ranges_of(pattern, words))
     longest = max(map(len, _response_words()))
     for start in range(len(words)):
         for end in range(start + 1, min(start + longest, len(words)) + 1):

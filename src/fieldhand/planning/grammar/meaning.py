@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 from fieldhand.places import selectors as s
 from fieldhand.places.series_statistics import Statistic
-from fieldhand.task.nodes.work_along import RowSides, WorkMode
+from fieldhand.task.nodes.work_along import RowSides, WorkHeading, WorkMode
 from fieldhand.task.watches import Fallback, Response, WatchCondition
 
 #: What a place phrase means: one place, several places, an area whose trees are meant, places just spoken of (``here``,
@@ -79,6 +79,7 @@ class Nominal:
         pronoun: True for "one", which stands for a noun before it.
         tested: True if a clause behind the noun describes it ("that are older than 8 years").
         vague: Attribute by which trees are described without a value ("weak vines").
+        unmarked: True for a noun that has one form for one and for several ("basil", "Sungold").
     """
 
     selector: s.Selector
@@ -90,6 +91,11 @@ class Nominal:
     pronoun: bool = False
     of_side: bool = False
     vague: str = ""
+    unmarked: bool = False
+
+    def counts(self, number: int) -> bool:
+        """Return True if its noun can name so many places: "three trees" and "one tree", but not "three tree"."""
+        return self.unmarked or self.plural == (number != 1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -298,7 +304,9 @@ class WorkCommand:
         along: Rows or area; None if the phrase names none.
         mode: How it is worked.
         used: Tokens of the phrase.
-        sides, every, laps, optional, parameters: As of the plan node.
+        sides, every, heading, laps, optional, parameters: As of the plan node.
+        rest_s: Seconds of rest between laps.
+        rests_last: True if it rests after the last lap as well.
     """
 
     action: str
@@ -307,9 +315,12 @@ class WorkCommand:
     used: int
     sides: RowSides = "one"
     every: int = 1
+    heading: WorkHeading = "any"
     laps: int = 1
     optional: bool = False
     parameters: tuple[tuple[str, str | float], ...] = ()
+    rest_s: float = 0.0
+    rests_last: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,6 +9,7 @@ from functools import cache
 from fieldhand.language import message
 from fieldhand.planning.english.tokens import Word, words_of
 from fieldhand.planning.english.wishes import says_start
+from fieldhand.planning.grammar.alike import different_on_site
 from fieldhand.planning.grammar.ambiguity import PlanQuestion, chosen_answer, not_an_answer, question_between
 from fieldhand.planning.grammar.answer_places import different_places
 from fieldhand.planning.grammar.assumptions import assumed_hands, assumed_qualities, assumed_ways, assumed_wholes
@@ -321,6 +322,7 @@ def _composed(
         if (plan := candidate.plan) is not None
         and (candidate.reading.cost == likely[0].reading.cost or _is_whole(plan, remarks, site, robot))
     ]
+    plans = different_on_site(plans, site)
     return (
         _chosen(plans, likely[0].reading.edits, remarks, request, site, robot, answers) if plans else likely[0].outcome
     )
@@ -518,7 +520,7 @@ def _meant(reading: RequestReading, request: str) -> Meant:
     plan, no_part = whole_plan(state.plan), [*reading.skipped, *reading.remarks]
     joints = (*reading.labels, *state.joints)
     if plan.is_series:
-        plan = replace(plan, said=joints)
+        plan = replace(plan, said=(*plan.said, *joints))
     else:
         no_part += joints
     limits = tuple(

@@ -8,9 +8,10 @@ from fieldhand.language import message, named
 from fieldhand.language.words import listed, say_action, say_unit, some_names
 from fieldhand.planning.english.lacking import lacked_actions, measured_units
 from fieldhand.planning.english.languages import language_of
-from fieldhand.planning.english.tokens import Word
+from fieldhand.planning.english.tokens import Word, words_of
 from fieldhand.planning.grammar.chart import Chart, PhraseEdge, tokens_of
 from fieldhand.planning.grammar.dialogue import NotComposed
+from fieldhand.planning.grammar.english import more_words
 from fieldhand.planning.grammar.impossible import IMPOSSIBLE
 from fieldhand.planning.grammar.words import LACKING
 from fieldhand.planning.planner import Planned, Reason
@@ -293,4 +294,19 @@ def lost_reasons(
         for start, end in lost
     ]
     wrong = [Reason(what=one.what, advice=PLAINLY) for one in mismatches(plan.task, site, robot)]
-    return (*parts, *wrong)
+    vague = () if parts or not wrong else tuple(_vague(request))
+    return vague or (*parts, *wrong)
+
+
+def _vague(request: str) -> Iterator[Reason]:
+    """Yield the reason for an adjective without a value ("weak vines") of which only one value fits the place."""
+    words = words_of(request)
+    for word in words:
+        if any(entry.kind == "VAGUEADJ" for entry in more_words().get((word.norm,), ())):
+            yield Reason(
+                what=message("'{said}': {what}", said=word.text, what=message("it does not say from which value on")),
+                said=((word.start, word.end),),
+                advice=message("say 'older than 8 years', or 'the ten oldest trees'"),
+                final=True,
+            )
+            return

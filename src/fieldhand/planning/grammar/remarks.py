@@ -36,7 +36,7 @@ _IN_ASIDES = frozenset(
     | {"PAPERWORK", "PURPOSE"}
 )
 #: Categories of words that what is told of a tree may have beside unknown ones ("the one by the road").
-_IN_APPOSITIONS = frozenset({"AT", "BY", "DET", "IMPERSONAL", "IS", "OF", "VAGUEADJ", "WHICH"})
+_IN_APPOSITIONS = frozenset({"AT", "BY", "DET", "DIMENSION", "IMPERSONAL", "IS", "OF", "VAGUEADJ", "WHICH"})
 #: Categories of words that restrict, forbid or command even behind "because", and of verbs that do so behind "and".
 _RESTRICTING = frozenset(
     {
@@ -243,8 +243,8 @@ def _corrected_numbers(words: Sequence[Word], kinds: Sequence[set[str]], sentenc
     end = begin
     while end <= sentence[-1] and ("CORRECTION" in kinds[end] or words[end].kind == "comma"):
         end += 1
-    if "WAITV" in kinds[begin] and end == begin + 1 and "UNIT" in kinds[min(end + 1, len(kinds) - 1)]:
-        return ()  # "tree 4, wait 10 min"
+    if "WAITV" in kinds[begin] and end == begin + 1 and any("UNIT" in kinds[k] for k in range(end, len(kinds))[1:5]):
+        return ()  # "tree 4, wait 10 min" and "..., wait a quarter of an hour"
     last = begin - 3 if "UNIT" in kinds[begin - 2] else begin - 2
     old, new = _numbers_from(words, kinds, last, -1), _numbers_from(words, kinds, end, 1)
     if not old or len(old) != len(new) or any("NUM" in kinds[k] for k in range(sentence[0], old[-1])):

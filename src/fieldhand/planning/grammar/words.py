@@ -18,6 +18,8 @@ from fieldhand.site.model import Site
 _WORD_COST = 1.0
 #: Price of a number that is read in parts ("one twenty"), which may be two numbers as well ("in row one twenty trees").
 _IN_PARTS_COST = 2.5
+#: Price of the name of a block that a zone has as well.
+_ALSO_A_ZONE_COST = 1.6
 #: Comparisons that are written as signs.
 _COMPARISONS = {
     ">": "gt",
@@ -173,7 +175,7 @@ def _phrase(
         kind = "CONTRAST" if entry.kind == "AND" and "contrast" in features else entry.kind
         values = list(_values(entry, phrases.lexicon))
         for value in values:
-            yield _edge(kind, start, end, Lex(value, entry.plural, text, features))
+            yield _edge(kind, start, end, Lex(value, entry.plural, text, features), entry.cost)
         if not values:
             yield _edge(LACKING, start, end, Lex(_hint(entry), entry.plural, text, features))
 
@@ -271,7 +273,8 @@ def _names(words: Sequence[Word], start: int, phrases: Phrases) -> Iterator[Phra
             ("BLOCKNAME", lexicon.block_names.get(spelt)),
         ):
             if name is not None and not (end == start + 1 and _is_article(word, name, phrases)):
-                yield _edge(f"{kind}POSS" if possessive else kind, start, end, Lex(name, False, spelt))
+                cost = _ALSO_A_ZONE_COST if kind == "BLOCKNAME" and lexicon.is_zone(name) else _WORD_COST
+                yield _edge(f"{kind}POSS" if possessive else kind, start, end, Lex(name, False, spelt), cost)
         if possessive:
             break
     for kind, name in lexicon.site.marker_names:

@@ -37,6 +37,8 @@ _EDGE_STEP_M = 8.0
 _OUTSIDE_M = 0.5
 #: Metres that a drive along an edge keeps beside the clearance, within which ground is approximated.
 _EDGE_M = 0.15
+#: Greatest angle in degrees between rows and the direction in which lanes are to run.
+_ALONG_ROWS_DEG = 45.0
 #: Share of an area's trees in rows from which it is worked along the rows.
 _PLANTED = 0.5
 
@@ -58,7 +60,15 @@ class AreaWork:
     overlap_m2: float
 
 
-def area_work(drives: Drives, ground: BaseGeometry, width_m: float, here: XY, home: XY | None) -> AreaWork:
+def area_work(
+    drives: Drives,
+    ground: BaseGeometry,
+    width_m: float,
+    here: XY,
+    home: XY | None,
+    *,
+    bearing_deg: float | None = None,
+) -> AreaWork:
     """Return the work over an area: along its rows where it has rows, else in swaths with one pass around it.
 
     Args:
@@ -66,9 +76,10 @@ def area_work(drives: Drives, ground: BaseGeometry, width_m: float, here: XY, ho
         ground: The area in local metres.
         width_m: Working width.
         here, home: Where the robot is, and where it drives afterwards.
+        bearing_deg: Bearing of the swaths, clockwise from north; None for the best one.
 
     Raises:
-        PlaceError: There is no ground that the robot can work on.
+        PlaceError: There is no ground that the robot can work on, or its rows run another way.
     """
     layout = drives.layout
     free = ground.intersection(layout.free.hard) if layout.free.bounded else ground
@@ -79,8 +90,9 @@ def area_work(drives: Drives, ground: BaseGeometry, width_m: float, here: XY, ho
             where=drives.site.name,
             advice=message("name an area outside keep-outs and inside the boundary"),
         )
-    params = CoverageParams(working_width_m=width_m)
+    params = CoverageParams(working_width_m=width_m, bearing_deg=bearing_deg)
     if _has_rows(drives, ground):
+        _require_rows_along(drives, ground, bearing_deg)
         plan = cover_rows(layout, area, params, start=here, goal=home)
         # The ends of the rows are ground to turn on.
         return _work_of(drives, plan)
@@ -94,6 +106,25 @@ def _has_rows(drives: Drives, ground: BaseGeometry) -> bool:
     inside = shapely.intersects_xy(ground, site.xy[:, 0], site.xy[:, 1])
     planted = site.planting.row_of[inside] >= 0 if site.planting.blocks else np.zeros(0, dtype=bool)
     return len(planted) > 1 and float(planted.mean()) >= _PLANTED
+
+
+def _require_rows_along(drives: Drives, ground: BaseGeometry, bearing_deg: float | None) -> None:
+    """Raise an error if lanes were to run across rows.
+
+    Raises:
+        PlaceError: The rows run another way.
+    """
+    site = drives.site
+    inside = shapely.intersects_xy(ground, site.xy[:, 0], site.xy[:, 1])
+    rows = {int(k) for k in site.planting.row_of[inside] if k >= 0}
+    for block in {site.planting.rows[k].block for k in rows}:
+        turned = abs((site.planting.blocks[block].bearing_deg - (bearing_deg or 0.0) + 90.0) % 180.0 - 90.0)
+        if bearing_deg is not None and turned > _ALONG_ROWS_DEG:
+            raise PlaceError(
+                message("the lanes of this area run along its rows, and these run another way"),
+                where=site.name,
+                advice=message("leave the direction of the lanes out"),
+            )
 
 
 def _work_of(drives: Drives, plan: CoveragePlan) -> AreaWork:

@@ -20,6 +20,9 @@ WorkMode = Literal["rows", "aisles", "headlands", "area", "perimeter"]
 #: Sides of rows that are worked.
 RowSides = Literal["one", "both", "north", "east", "south", "west"]
 
+#: Direction in which lanes run, or in which every row or aisle is driven.
+WorkHeading = Literal["any", "north_south", "east_west", "north", "east", "south", "west"]
+
 
 @dataclass(frozen=True, kw_only=True)
 class WorkAlong(PlanNode):
@@ -39,6 +42,8 @@ class WorkAlong(PlanNode):
             ``headlands``: along both ends of the rows. ``area``: all ground, lane by lane. ``perimeter``: its edge.
         sides: Sides of each row: any one, both, or one of the compass.
         every: With ``aisles``, 2 for every second aisle.
+        heading: With ``area``, ``north_south`` or ``east_west`` for the direction of its lanes. With ``rows`` and
+            ``aisles``, the side of the compass towards which each of them is driven.
         laps: Times that the whole is done.
         gaps: ``on`` to keep the action on in gaps of a row.
         order: ``best`` for short drives between stretches; ``given`` for the selector's order.
@@ -53,6 +58,7 @@ class WorkAlong(PlanNode):
     mode: WorkMode = "rows"
     sides: RowSides = "one"
     every: int = 1
+    heading: WorkHeading = "any"
     laps: int = 1
     gaps: Literal["off", "on"] = "off"
     order: Literal["best", "given"] = "best"

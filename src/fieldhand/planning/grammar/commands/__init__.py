@@ -6,6 +6,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands import (
     adjuncts,
     aggregates,
+    asked,
     captures,
     clauses,
     conditions,
@@ -14,6 +15,8 @@ from fieldhand.planning.grammar.commands import (
     energy,
     events,
     exclusions,
+    headings,
+    laps,
     limits,
     pace,
     parameters,
@@ -25,6 +28,7 @@ from fieldhand.planning.grammar.commands import (
     things,
     waits,
     ways,
+    work_wanted,
     working,
 )
 
@@ -33,6 +37,7 @@ GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
     exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, earlier,
+    work_wanted, laps, headings, asked,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

@@ -10,7 +10,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Adjunct, Clause, once
 from fieldhand.planning.grammar.meaning import LAST_THING, UNSAID_THING, CaptureCommand, PlaceMeaning, Thing
 from fieldhand.planning.grammar.places.groups import of_each_kind
-from fieldhand.planning.grammar.places.sampling import bare_zone
+from fieldhand.planning.grammar.places.sampling import bare_points
 from fieldhand.planning.grammar.places.vague import as_many_of_best
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import are_rows, as_quota, as_some, as_zone, chooses_from_trees, is_one_row, over
@@ -44,7 +44,11 @@ def _so_often(command: CaptureCommand, times: int) -> CaptureCommand | None:
 
 def _again(command: CaptureCommand, _: None) -> CaptureCommand | None:
     place = command.place
-    known = place is None or place.shape in ("here", "one") or any(one.uses_records for one in place.selector.walk())
+    known = (
+        place is None
+        or place.shape in ("here", "one", "those")
+        or any(one.uses_records for one in place.selector.walk())
+    )
     return command if known and command.relation in ("at", "of", "along") else None
 
 
@@ -93,6 +97,8 @@ def once_more() -> Adjunct:
     "adjunct: times=count EACH",
     "adjunct: number=things EACH",
     "adjunct: number=things INEACH",
+    "adjunct: times=count PER TREE",
+    "adjunct: number=things PER TREE",
     cost=0.2,
 )
 def of_each(times: int | None = None, number: tuple[Thing, ...] | None = None) -> Adjunct:
@@ -148,11 +154,8 @@ class _Drawing:
 def _at_random(command: CaptureCommand, drawing: _Drawing) -> CaptureCommand | None:
     place, count = command.place, _only_count(command)
     if place is not None and place.shape == "area" and place.per is None and count is not None:
-        zone = bare_zone(place.selector, drawing.site)
-        free = s.PointsIn(zone=zone, count=count, random=True)
-        drawn_there = PlaceMeaning(
-            free if zone else s.RandomSample(count=count, of=place.selector), "several", count=count
-        )
+        free = bare_points(place.selector, drawing.site, count, random=True)
+        drawn_there = PlaceMeaning(free or s.RandomSample(count=count, of=place.selector), "several", count=count)
         return replace(command, things=once(command.things), place=drawn_there)
     if place is None or place.shape not in ("one", "several") or place.per is not None:
         return None
@@ -231,8 +234,8 @@ def as_can_of_many() -> Adjunct:
 
 @construction("adjunct: ONTHEWAY", cost=0.3)
 def on_the_way() -> Adjunct:
-    """Compose "on the way back" behind a capture, which comes last anyway."""
-    return Adjunct(_unchanged)
+    """Compose "on the way back" behind a capture at a place, which comes last anyway."""
+    return Adjunct(_unchanged, of_place=True)
 
 
 def _unchanged(command: CaptureCommand, _: None) -> CaptureCommand:
@@ -385,10 +388,9 @@ def _spread(command: CaptureCommand, over_what: _Spreading) -> CaptureCommand | 
     count, zone = _only_count(command), as_zone(where)
     if count is None or command.place is not None or (zone is not None and zone.outside):
         return None
-    if zone is None and over_what.site.trees:
-        over_it: s.Selector = s.Spread(count=count, of=where)
-    else:
-        over_it = s.PointsIn(zone="" if zone is None else zone.zone, count=count)
+    over_it: s.Selector | None = bare_points(where, over_what.site, count)
+    if over_it is None:
+        over_it = s.Spread(count=count, of=where) if zone is None else s.PointsIn(zone=zone.zone, count=count)
     return replace(
         command, things=once(command.things), place=PlaceMeaning(over_it, "several", count=count), relation="at"
     )
@@ -444,6 +446,34 @@ def spread_over(site: Site, where: s.Selector | None = None, along: Lex | None =
     if along is not None and where is not None and are_rows(where):
         return None
     return Adjunct(_spread, _Spreading(where or s.Trees(), site))
+
+
+@construction(
+    "adjunct: [SCATTERED] RANDOM OVER where=region",
+    "adjunct: SCATTERED RANDOM in_ where=region",
+    cost=0.2,
+    given=("site",),
+)
+def scattered_over(where: s.Selector, site: Site) -> Adjunct:
+    """Compose "scattered at random over the slope"."""
+    return Adjunct(_scattered, _Spreading(where, site))
+
+
+@construction("adjunct: SCATTERED OVER where=region", cost=0.2, given=("site",))
+def dotted_over(where: s.Selector, site: Site) -> Adjunct:
+    """Compose "dotted about the slope"."""
+    return Adjunct(_spread, _Spreading(where, site))
+
+
+def _scattered(command: CaptureCommand, over_what: _Spreading) -> CaptureCommand | None:
+    """Return a command at places of an area drawn at random, as many as there are captures."""
+    where = over_what.where
+    count, zone = _only_count(command), as_zone(where)
+    if count is None or command.place is not None or (zone is not None and zone.outside):
+        return None
+    drawn = bare_points(where, over_what.site, count, random=True) or s.RandomSample(count=count, of=where)
+    there = PlaceMeaning(drawn, "several", count=count)
+    return replace(command, things=once(command.things), place=there, relation="at")
 
 
 @construction(

@@ -9,20 +9,24 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Adjunct
+from fieldhand.planning.grammar.commands.parameters import with_parameter
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
     UNSAID_THING,
     Amount,
     CaptureCommand,
     Nominal,
+    ParameterValue,
     PlaceMeaning,
     Thing,
 )
 from fieldhand.planning.grammar.places.numbers import named_trees
+from fieldhand.planning.grammar.places.points import Points
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
     specifies_part,
 )
+from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -89,6 +93,40 @@ def adjunct_before(
     if act.place is not None and act.place.shape in ("those", "here"):
         act = replace(act, place=None)
     changed = adjunct.change(act, adjunct.value)
+    return replace(changed, used=used) if isinstance(changed, CaptureCommand) else None
+
+
+@construction(
+    "capture: adjunct=adjunct [COMMA] AND act=capture", "capture: adjunct=adjunct COMMA act=capture",
+    cost=0.5,
+)  # fmt: skip
+def at_each_point_of(adjunct: Adjunct, act: CaptureCommand, used: int) -> CaptureCommand | None:
+    """Compose "lay a 20 m grid over the slope and take soil moisture at every point"."""
+    if not adjunct.lays_out or act.spacing is not None or act.within is not None or act.times != 1:
+        return None
+    if act.place is None or act.place.shape != "those":
+        return None
+    changed = adjunct.change(replace(act, place=None), adjunct.value)
+    return replace(changed, used=used) if isinstance(changed, CaptureCommand) else None
+
+
+@construction(
+    "capture: adjunct=adjunct [COMMA] [AND] [verb] things=things relation points=points",
+    "capture: adjunct=adjunct [COMMA] [AND] [verb] things=things relation points=points ONTHEWAY",
+    "capture: adjunct=adjunct WITH things=things", "capture: adjunct=adjunct WITH things=things ONTHEWAY",
+    cost=0.4,
+)  # fmt: skip
+def at_points_of(
+    adjunct: Adjunct, things: tuple[Thing, ...], used: int, points: Points | None = None
+) -> CaptureCommand | None:
+    """Compose "walk the slope in a W and take nitrate at fifteen stops" and "a W with fifteen nitrate readings"."""
+    if not adjunct.lays_out or (points is not None and (points.where is not None or points.count is None)):
+        return None
+    if points is not None:
+        if any(one.count not in (None, 1) for one in things):
+            return None
+        things = tuple(replace(one, count=points.count) for one in things)
+    changed = adjunct.change(CaptureCommand(things, None, used), adjunct.value)
     return replace(changed, used=used) if isinstance(changed, CaptureCommand) else None
 
 
@@ -178,7 +216,13 @@ def once_more_at(word: str, place: PlaceMeaning, used: int) -> CaptureCommand | 
     return CaptureCommand((Thing(LAST_THING),), place, used, relation=word) if place.shape == "one" else None
 
 
-@construction("capture: MEASURE IT place=here", "capture: MEASURE IT AT place=place", cost=0.4)
+@construction("capture: MEASURE IT AGAIN", "capture: TAKE IT AGAIN", "capture: MEASURE IT AGAIN place=here", cost=0.4)
+def measure_it_again(used: int, place: PlaceMeaning | None = None) -> CaptureCommand:
+    """Compose "(wait 10 minutes and) read it again"."""
+    return CaptureCommand((Thing(LAST_THING, count=1),), place, used)
+
+
+@construction("capture: MEASURE IT place=here", "capture: MEASURE IT relation place=place", cost=0.4)
 def measure_it(place: PlaceMeaning, used: int) -> CaptureCommand | None:
     """Compose "measure it there" and "measure it at tree 4"."""
     return CaptureCommand((Thing(LAST_THING),), place, used) if place.shape != "area" else None
@@ -206,6 +250,14 @@ def _kind_of(verb: Lex | None) -> Literal["", "look", "sample"]:
     """Return what a verb says of a capture that is not named."""
     features = frozenset[str]() if verb is None else verb.features
     return "look" if "looks" in features else "sample" if "samples" in features else ""
+
+
+@construction("capture: verb=TAKE place=place", cost=1.2)
+def do_the_rest(verb: Lex, place: PlaceMeaning, used: int) -> CaptureCommand | None:
+    """Compose "do the rest", where the same is captured."""
+    rest = place.like is not None and place.like.kind == "rest"
+    known = rest and "performs" in verb.features
+    return CaptureCommand((Thing(LAST_THING),), place, used) if known else None
 
 
 @construction(
@@ -285,3 +337,23 @@ def _act_on(verb: Lex, place: PlaceMeaning, used: int) -> CaptureCommand:
     """Return the capture of an action's verb at a place."""
     naming: Naming = verb.value
     return CaptureCommand((Thing(naming.actions[0]),), place, used, relation="of")
+
+
+@construction(
+    "capture: MEASURE DET ground=GROUND relation place=place",
+    "capture: MEASURE DET ground=GROUND how=parameter relation place=place",
+    "capture: MEASURE DET ground=GROUND relation place=place how=parameter",
+    cost=1.5,
+    given=("robot",),
+)
+def ground_measured(
+    ground: Lex, place: PlaceMeaning, used: int, robot: RobotProfile, how: ParameterValue | None = None
+) -> list[CaptureCommand] | None:
+    """Compose "test the soil at tree 4", which does not say what for."""
+    if "of_soil" not in ground.features:
+        return None
+    names = {quantity.name for quantity in robot.quantities if "soil" in quantity.name}
+    things = [Thing(action.name, plural=True) for action in robot.actions if names & {*action.measures}]
+    if how is not None:
+        things = [made for one in things if (made := with_parameter(one, how, robot)) is not None]
+    return [CaptureCommand((one,), place, used) for one in things] or None

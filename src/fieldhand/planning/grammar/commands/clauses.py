@@ -41,7 +41,7 @@ _ORDERS: dict[str, Form] = {
     # go to tree 4 for a picture; test the soil for nitrate at tree 6
     "gf": "verb", "vzf": "verb", "vzfp": "verb", "vtz": "verb", "vtzp": "verb",
     # every 10 m along row 3 take a picture; row 3, every 10 m, photograph; every 10 m for a picture; do row 3, thermal
-    "pvt": "verb", "bvt": "verb", "pa": "act", "ba": "act", "f": "bare", "vbt": "topic",
+    "pvt": "verb", "bvt": "verb", "pa": "act", "ba": "act", "f": "bare", "w": "bare", "vbt": "topic",
     # photograph tree 4 (with two pictures); clip a leaf from tree 4
     "a": "act", "ab": "act", "ap": "act", "ah": "act", "abw": "act", "at": "act", "atp": "act",
     # tree 4 (should be) checked for CO2; have tree 4 looked at with the camera; have the soil tested for nitrate
@@ -118,6 +118,8 @@ class Adjunct:
         of_place: True if it stands behind the place.
         may_lead: True if it may stand before the clause.
         is_sentence: True if it may be a sentence by itself behind the clause.
+        late: True if it changes what the others have made of the command.
+        lays_out: True for points that are laid out, at which the clause behind it captures.
     """
 
     change: Change
@@ -126,6 +128,8 @@ class Adjunct:
     of_place: bool = False
     may_lead: bool = False
     is_sentence: bool = False
+    late: bool = False
+    lays_out: bool = False
 
 
 def _part(kind: Kind, **meaning: Any) -> Clause:
@@ -318,7 +322,7 @@ def _commands(clause: Clause, used: int, *forms: Form) -> list[CaptureCommand] |
     form = _ORDERS.get(clause.order)
     if form is None:
         return None
-    if clause.order == "f" and not clause.adjuncts:
+    if clause.order in ("f", "w") and not clause.adjuncts:
         return None
     if form == "bare" and clause.adjuncts:
         form = "topic"  # "four readings 20 m apart"
@@ -326,7 +330,7 @@ def _commands(clause: Clause, used: int, *forms: Form) -> list[CaptureCommand] |
         return None
     command = _COMPOSED[form](clause, used)
     commands = [] if command is None else [command]
-    for adjunct in clause.adjuncts:
+    for adjunct in sorted(clause.adjuncts, key=lambda one: one.late):
         changed = [adjunct.change(one, adjunct.value) for one in commands]
         commands = [one for made in changed if made is not None for one in (made if isinstance(made, list) else [made])]
     return [_placed(one) for one in commands] or None

@@ -39,7 +39,7 @@ from fieldhand.planning.grammar.meaning import (
 )
 from fieldhand.planning.grammar.places.compass import AWAY_FROM
 from fieldhand.planning.grammar.places.numbers import named_trees
-from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.grammar.words import Lex, hinted_attributes
 from fieldhand.planning.selections import as_in_row, as_some, is_one_row
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -623,8 +623,10 @@ def among_those(whole: PlaceMeaning, word: Lex | None = None) -> PlaceMeaning | 
     "tested: area=among_trees WHICH noun=NOUN [IS] test=predicate",
     "tested: those=tested by=measured_by",
     cost=0.2,
+    given=("site",),
 )
 def those_tested(
+    site: Site,
     test: Test | None = None,
     area: PlaceMeaning | None = None,
     noun: Lex | None = None,
@@ -638,6 +640,8 @@ def those_tested(
         return None
     named = measured_by(noun) if noun is not None and noun.value is not None else [by or test.quantity]
     known = None if area is None or area.selector == s.Trees() else area
+    if area is not None and any(hinted_attributes(name.rpartition("_")[2], site) for name in named if name):
+        return None  # "peppers with a moisture under 25", which the site records
     return [(AllTests((replace(test, quantity=name),)), known) for name in named]
 
 

@@ -286,6 +286,8 @@ def in_reverse_order(used: int) -> InAnOrder:
     "order: WHATEVER ORDERWORD REMAINS",
     "order: ORDERWORD COMMA WHATEVER",
     "order: ORDERBY [DET] ORDERBEST ORDERWORD",
+    "order: [DET] ORDERBEST ORDERWORD",
+    "order: ORDERBY [DET] ORDERWORD [WHICH] [IS] ORDERBEST",
     "order: CHOOSEORDER [DET] ORDERWORD [ITSELF]",
     cost=0.2,
 )

@@ -45,7 +45,12 @@ def charge_fully() -> float:
     return _FULL
 
 
-@construction("go_on: [COMMA] [AND] GOONAFTER", "go_on: [COMMA] [then] GOONAFTER", cost=0.1)
+@construction(
+    "go_on: [COMMA] [AND] GOONAFTER",
+    "go_on: [COMMA] [AND] [then] GOONAFTER",
+    "go_on: FULLSTOP [then] GOONAFTER",
+    cost=0.1,
+)
 def go_on() -> str:
     """Compose "and go on"."""
     return "go on"
@@ -91,6 +96,7 @@ def as_often_as_needed(used: int, one: RechargeClause | None = None, far: float 
 
 @construction(
     "recharging: one=charged in_case below=low_battery [go_on]",
+    "recharging: one=charged in_case below=it_low [go_on]",
     "recharging: charge_it in_case below=low_battery [COMMA] [AND] far=charge_far [go_on]",
     "recharging: one=charged BEFORE below=low_battery [go_on]",
     "recharging: one=charged at=AT below=reserve [go_on]",

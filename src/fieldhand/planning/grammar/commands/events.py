@@ -281,6 +281,9 @@ def for_so_long(first: WatchResponse, most: Amount) -> WatchResponse | None:
     "reacts: first=reacts [COMMA] [AND] then [COMMA] GOON",
     "reacts: first=reacts [COMMA] AND GOON",
     "reacts: first=reacts COMMA GOON",
+    "reacts: first=reacts [COMMA] [AND] [then] GOON ONCEOVER",
+    "reacts: first=reacts [COMMA] [AND] ONCEOVER [COMMA] GOON",
+    "reacts: first=reacts FULLSTOP GOON ONCEOVER",
     cost=0.1,
 )
 def goes_on(first: WatchResponse) -> WatchResponse | None:
@@ -307,7 +310,9 @@ def then_reacts(first: WatchResponse, second: WatchResponse) -> WatchResponse | 
     if first.response != "wait" or first.fallback is not None or first.at_most_s is None:
         return None
     fallback = second.response
-    return None if fallback in ("wait", "skip_row", "slow") else replace(first, fallback=fallback)
+    if fallback == "wait" or fallback == "skip_row" or fallback == "slow":
+        return None
+    return replace(first, fallback=fallback)
 
 
 @construction(
@@ -345,6 +350,12 @@ def in_a_part(part: tuple[str, ...], rule: WatchCommand, used: int) -> WatchComm
     if not isinstance(rule, WatchCommand) or rule.during:
         return None
     return replace(rule, during=part, used=used)
+
+
+@construction("command: on=happens ends=FULLSTOP reaction=reacts", cost=0.3)
+def asked_event(on: Conditions, ends: Lex, reaction: WatchResponse, used: int) -> WatchCommand | None:
+    """Compose "anyone nearby? wait until they are gone"."""
+    return WatchCommand(on, reaction, used) if "question" in ends.features else None
 
 
 @construction(

@@ -20,6 +20,8 @@ from fieldhand.planning.grammar.meaning import (
 )
 from fieldhand.planning.grammar.places.exceptions import except_for, except_positions
 from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.places.planted_rows import rows_out_of
+from fieldhand.planning.grammar.places.points import outside_zones
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_rows, chooses_from_trees, named_places, over, swapped
 from fieldhand.site.model import Site
@@ -52,11 +54,25 @@ def place_kept_out(place: PlaceMeaning) -> Excluded | None:
     return Excluded(place) if known and (place.like is None or place.like.kind == "those") else None
 
 
+@construction("kept_out: in_ where=region", cost=0.2)
+def area_kept_out(where: s.Selector) -> Excluded:
+    """Compose "in the wet corner" of "..., except in the wet corner"."""
+    return Excluded(PlaceMeaning(where, "area"))
+
+
 @construction("kept_out: [DET] value=ATTRVAL ONE", cost=0.2)
 def kind_kept_out(value: Lex) -> list[Excluded]:
     """Compose "the yellow ones" of "skip the yellow ones"."""
     return [
         Excluded(PlaceMeaning(s.Where(attribute=name, test="eq", value=text), "several")) for name, text in value.value
+    ]
+
+
+@construction("kept_out: [DET] flag=FLAG ONE", "kept_out: ANY flag=FLAG ONE", cost=0.2)
+def such_kept_out(flag: Lex) -> list[Excluded]:
+    """Compose "the covered ones" of "skip the covered ones"."""
+    return [
+        Excluded(PlaceMeaning(s.Where(attribute=name, test="eq", value=value), "several")) for name, value in flag.value
     ]
 
 
@@ -206,6 +222,11 @@ def _without(
     if out.place is None:
         left = except_positions(whole, out.positions)
         return None if left is None else replace(command, place=left[0], used=used)
+    if whole.per is not None and (rows := rows_out_of(out.place.selector, site)) is not None:
+        per = s.Excluding(places=rows, of=whole.per)  # "a reading in each bed. Leave out the covered ones."
+        return replace(command, place=replace(whole, per=per), used=used)
+    if (points := outside_zones(whole, out.place.selector)) is not None:
+        return replace(command, place=points, used=used)
     among, left_out = ids_of(whole.selector, site), ids_of(out.place.selector, site)
     if any(part.uses_records for part in out.place.selector.walk()):
         left_out, among, some = set(), among or set(), False  # what was done before may be known later only

@@ -185,6 +185,26 @@ def low_battery(least: Amount, check: Lex | None = None) -> Amount | None:
 
 
 @construction(
+    "low_battery: [DET] BATTERY [IS] check=CMP part=PART",
+    "low_battery: [DET] BATTERY [IS] check=CMP DET part=PART",
+    "low_battery: [DET] BATTERY GOUNDER [DET] part=PART",
+    "low_battery: [DET] BATTERY REACHES [DET] part=PART",
+    cost=0.2,
+)
+def low_part(part: Lex, check: Lex | None = None) -> Amount | None:
+    """Compose "the battery drops below a third"."""
+    return low_battery(part_of_battery(part), check)
+
+
+@construction("it_low: IT [IS] check=CMP least=amount [of_what]", "it_low: IT REACHES least=amount", cost=0.1)
+@construction("it_low: IT GOUNDER least=amount", "it_low: CONTRACTED DOWNAT least=amount", cost=0.1)
+@construction("it_low: CONTRACTED check=CMP least=amount", cost=0.1)
+def it_is_low(least: Amount, check: Lex | None = None) -> Amount | None:
+    """Compose "it is down to 30 %" behind "charge the battery when"."""
+    return low_battery(least, check)
+
+
+@construction(
     "limit: KEEP least=reserve [LEFT] [word=THEN]",
     "limit: WITH least=reserve LEFT [word=THEN]",
     "limit: WANT least=reserve LEFT [word=THEN]",
@@ -284,10 +304,23 @@ def at_word() -> str:
 @construction(
     "visit_limit: n=count [OFTHEM] TOPS",
     "visit_limit: n=count TREE TOPS",
+    "visit_limit: n=count READING TOPS",
+    "visit_limit: n=count POINT TOPS",
+    "visit_limit: check=CMP n=count POINT",
+    "visit_limit: check=UPTO n=count POINT",
+    "visit_limit: check=UPTO n=count OFTHEM",
+    "visit_limit: NEVERMORE n=count",
+    "visit_limit: NEVERMORE n=count OFTHEM",
+    "visit_limit: NEVERMORE n=count READING",
+    "visit_limit: NEVERMORE n=count TREE",
+    "visit_limit: NEVERMORE n=count POINT",
     "visit_limit: check=CMP n=count",
     "visit_limit: check=CMP n=count READING",
     "visit_limit: check=CMP n=count TREE",
     "visit_limit: check=UPTO n=count TREE",
+    "visit_limit: check=CMP n=count POINT",
+    "visit_limit: check=UPTO n=count POINT",
+    "visit_limit: check=UPTO n=count OFTHEM",
     "visit_limit: check=CMP n=count TIMES",
     "visit_limit: check=UPTO n=count",
     "visit_limit: check=UPTO n=count READING",

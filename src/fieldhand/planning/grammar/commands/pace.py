@@ -22,6 +22,7 @@ _UNIT = "m_s"
     "manner: word=AT DET speed=amount",
     "manner: word=AT [DET] SPEED OF speed=amount",
     "manner: WITH [DET] SPEED OF speed=amount",
+    "manner: WITH speed=amount",
     "manner: [DET] SPEED [COMMA] [IS] speed=amount",
     "manner: [DET] SPEED IS AT speed=amount",
     cost=0.2,
@@ -95,7 +96,12 @@ def slow_down_to(used: int, how: PaceClause | None = None, speed: Amount | None 
     return None if found is None else replace(found, used=used)
 
 
-@construction("manner: SLOW [COMMA] how=manner", "manner: how=manner [COMMA] [AND] SLOW", cost=0.1)
+@construction(
+    "manner: EASY [COMMA] how=manner",
+    "manner: SLOW [COMMA] how=manner",
+    "manner: how=manner [COMMA] [AND] SLOW",
+    cost=0.1,
+)
 def slowly_at(how: PaceClause) -> PaceClause | None:
     """Compose "slowly, at 0.3 m/s"."""
     return None if how.slowly else how
@@ -111,6 +117,8 @@ def between_trees(how: PaceClause) -> PaceClause:
     "pace: how=manner",
     "pace: GO how=manner",
     "pace: DRIVEN how=manner",
+    "pace: TAKE IT how=manner",
+    "pace: TAKE [DET] ROW how=manner",
     "pace: KEEP how=manner",
     "pace: subject [MUST] GO how=manner",
     "pace: [MUST] GO how=manner",

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field, replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Adjunct, once
-from fieldhand.planning.grammar.meaning import CaptureCommand, PlaceMeaning
-from fieldhand.planning.grammar.places.sampling import SamplingPath, grid_selector
-from fieldhand.planning.selections import as_some, chooses_from_trees, over
+from fieldhand.planning.grammar.meaning import CaptureCommand, PlaceMeaning, Thing
+from fieldhand.planning.grammar.places.sampling import SamplingPath, grid_selector, is_on_bare_ground
+from fieldhand.planning.selections import as_some, as_zone, chooses_from_trees, over
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -78,7 +78,9 @@ def _on_grid(command: CaptureCommand, cells: _Cells) -> CaptureCommand | None:
     return _at(command, grid_selector(cells.every_m, _area(command, cells.where), cells.site), None)
 
 
-def _at(command: CaptureCommand, selector: s.Selector, count: int | None) -> CaptureCommand:
+def _at(command: CaptureCommand, selector: s.Selector | None, count: int | None) -> CaptureCommand | None:
+    if selector is None:
+        return None
     there = PlaceMeaning(selector, "several", count=count, each=count is None)
     return replace(command, things=once(command.things), place=there, relation="at")
 
@@ -86,10 +88,104 @@ def _at(command: CaptureCommand, selector: s.Selector, count: int | None) -> Cap
 @construction("adjunct: along=path_over", cost=0.2, given=("site",))
 def along_path(along: tuple[SamplingPath, s.Selector | None], site: Site) -> Adjunct:
     """Compose "in a W through the north block", of so many samples."""
-    return Adjunct(_along, _Route(*along, site), may_lead=True)
+    return Adjunct(_along, _Route(*along, site), may_lead=True, late=True, lays_out=True)
 
 
 @construction("adjunct: on=grid_over", cost=0.2, given=("site",))
 def on_grid(on: tuple[float, s.Selector | None], site: Site) -> Adjunct:
     """Compose "on a 20 m grid over the meadow"."""
-    return Adjunct(_on_grid, _Cells(*on, site), may_lead=True)
+    return Adjunct(_on_grid, _Cells(*on, site), may_lead=True, lays_out=True)
+
+
+# Paths and grids that are laid first, and what is done there.
+
+
+@construction(
+    "walked: along=path_over",
+    "walked: PATHGO where=region path=in_path",
+    "walked: PATHGO OVER where=region path=in_path",
+    "walked: path=path OVER where=region",
+    "walked: path=path in_ where=region",
+    cost=0.1,
+)
+def walked(
+    along: tuple[SamplingPath, s.Selector | None] | None = None,
+    path: SamplingPath | None = None,
+    where: s.Selector | None = None,
+) -> tuple[SamplingPath, s.Selector | None] | None:
+    """Compose "cross the meadow in an X" before what is done on the way."""
+    return along if path is None else (path, where)
+
+
+@construction(
+    "capture: on=walked [COMMA] [AND] verb things=things AT n=count POINT [ONTHEWAY]",
+    "capture: on=walked [COMMA] [AND] verb things=things n=count TIMES [ONTHEWAY]",
+    "capture: on=walked [COMMA] [AND] STOP [n=count] TIMES [ONTHEWAY] INORDERTO verb things=things",
+    "capture: on=walked [COMMA] [AND] STOP AT n=count POINT [ONTHEWAY] INORDERTO verb things=things",
+    "capture: on=walked [COMMA] [AND] STOPEACH AT n=count POINT [ONTHEWAY] INORDERTO verb things=things",
+    "capture: on=walked [COMMA] WITH n=count POINT FOR things=things",
+    cost=0.2,
+    given=("site",),
+)
+def captured_on_the_way(
+    on: tuple[SamplingPath, s.Selector | None], things: tuple[Thing, ...], used: int, site: Site, n: int = 0
+) -> CaptureCommand | None:
+    """Compose "walk the slope in a W and read nitrate at fifteen stops on the way"."""
+    path, where = on
+    if n < 2 or any(one.count not in (None, 1) for one in things):
+        return None
+    return _at(CaptureCommand(things, None, used), path.over(where, site, count=n), n)
+
+
+@construction(
+    "laid: LAYS every=cells OVER where=region",
+    "laid: LAYS every=cells AT where=region",
+    "laid: LAYS every=cells OPPOSITE where=region",
+    "laid: LAYS where=region AT every=cells",
+    "laid: COVERS where=region WITH every=cells",
+    "laid: LAYS every=cells OVER site",
+    cost=0.1,
+)
+def laid(every: float, where: s.Selector | None = None) -> tuple[float, s.Selector | None]:
+    """Compose "lay a 25 m grid over the meadow"."""
+    return every, where
+
+
+@construction(
+    "capture: on=laid [COMMA] AND verb things=things AT EACH GRIDPOINT",
+    "capture: on=laid [COMMA] AND verb things=things AT EACH [OFTHEM]",
+    "capture: on=laid [COMMA] AND verb things=things AT EACH OF ITS GRIDPOINT",
+    "capture: on=laid [COMMA] AND verb things=things place=here",
+    cost=0.2,
+    given=("site",),
+)
+def captured_on_grid(
+    on: tuple[float, s.Selector | None],
+    things: tuple[Thing, ...],
+    used: int,
+    site: Site,
+    place: PlaceMeaning | None = None,
+) -> CaptureCommand | None:
+    """Compose "lay a 25 m grid over the meadow and test the soil moisture at every point"."""
+    every, where = on
+    each = place is None or (place.shape == "those" and place.each)
+    if not each or any(one.count not in (None, 1) for one in things):
+        return None
+    return _at(CaptureCommand(things, None, used), grid_selector(every, where, site), None)
+
+
+@construction(
+    "capture: act=capture [COMMA] except [AT] out=region",
+    "capture: act=capture [COMMA] except [AT] DET GRIDPOINT in_ out=region",
+    cost=0.3,
+    given=("site",),
+)
+def points_but_those(act: CaptureCommand, out: s.Selector, used: int, site: Site) -> CaptureCommand | None:
+    """Compose "... at every point, except in the wet corner", of points of bare ground."""
+    zone, place = as_zone(out), act.place
+    if place is None or zone is None or zone.outside or zone.margin_m or zone.of != s.Trees():
+        return None
+    if not is_on_bare_ground(place.selector, site) or place.count is not None:
+        return None
+    outside = s.InZone(zone=zone.zone, outside=True, of=place.selector)
+    return replace(act, place=replace(place, selector=outside), used=used)

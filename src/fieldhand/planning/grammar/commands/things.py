@@ -155,7 +155,7 @@ def both_things(first: tuple[Thing, ...], second: tuple[Thing, ...]) -> tuple[Th
     return more_things(first, second)
 
 
-@construction("verb: TAKE", "verb: MEASURE", "verb: CLIP", cost=0.0)
+@construction("verb: TAKE", "verb: MEASURE", "verb: CLIP", "verb: KEEPTAKING", cost=0.0)
 def capture_verb() -> str:
     """Compose "take"."""
     return "take"

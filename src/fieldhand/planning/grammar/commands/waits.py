@@ -10,6 +10,7 @@ from fieldhand.planning.grammar.meaning import (
     LAST_THING,
     Amount,
     CaptureCommand,
+    Connective,
     LinkedCommand,
     PlaceMeaning,
     Said,
@@ -196,3 +197,44 @@ def settle_before(time: float, before: Lex, one: CaptureCommand, used: int) -> S
     clause = SettleClause(time, tuple(thing.action for thing in one.things), used & ~one.used)
     first = LinkedCommand(None, replace(one, relation="at" if one.relation == "bare" else one.relation))
     return Said((first, LinkedCommand(None, clause)))
+
+
+@construction(
+    "once_more_act: AGAIN",
+    "once_more_act: MEASURE IT AGAIN",
+    "once_more_act: TAKE IT AGAIN",
+    "once_more_act: MEASURE AGAIN",
+    "once_more_act: REPEAT IT",
+    "once_more_act: REPEAT",
+    "once_more_act: [TAKE] ANOTHER [ONE]",
+    "once_more_act: [TAKE] ANOTHER READING",
+    cost=0.2,
+)
+def once_more_act() -> str:
+    """Compose "and again"."""
+    return "again"
+
+
+@construction(
+    "later: time=amount LATER", "later: word=THEN time=amount", "later: word=THEN ANOTHER time=amount", cost=0.1
+)
+def later(time: Amount, word: Lex | None = None) -> float | None:
+    """Compose "ten minutes later" and "after ten minutes"."""
+    return duration(time) if word is None or "after_doing" in word.features else None
+
+
+@construction(
+    "said: before=said joint=joint once_more_act time=later",
+    "said: before=said joint=joint time=later [COMMA] once_more_act",
+    cost=0.3,
+)
+def again_later(before: Said, joint: Connective, time: float, used: int) -> Said | None:
+    """Compose "read CO2 at tree 4, and again ten minutes later"."""
+    own = used & ~joint.used
+    for clause in before.clauses:
+        own &= ~(clause.command.used | (0 if clause.before is None else clause.before.used))
+    wait = CaptureCommand((wait_thing(time),), None, own)
+    again = CaptureCommand((Thing(LAST_THING, count=1),), None, own)
+    return Said(
+        (*before.clauses, LinkedCommand(joint, wait), LinkedCommand(Connective(False, True, 0, both=True), again))
+    )

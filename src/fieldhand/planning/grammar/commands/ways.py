@@ -87,7 +87,9 @@ def several_gates(first: tuple[str, ...], second: tuple[str, ...]) -> tuple[str,
     return (*first, *second)
 
 
-@construction("way_rule: ONLYVIA gates=gates", "way_rule: VIAGATE gates=gates ONLY", cost=0.0)
+@construction(
+    "way_rule: ONLYVIA gates=gates", "way_rule: VIAGATE gates=gates ONLY", "way_rule: ENTERBY gates=gates", cost=0.0
+)
 def only_gates(gates: tuple[str, ...], used: int) -> WayRule:
     """Compose "use the east gate only" and "only through the east gate"."""
     return WayRule(gates=gates, used=used)

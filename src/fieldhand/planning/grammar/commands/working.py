@@ -10,13 +10,15 @@ from dataclasses import dataclass, replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.parameters import with_parameter
-from fieldhand.planning.grammar.meaning import Amount, ParameterValue, Thing, WorkCommand
+from fieldhand.planning.grammar.meaning import Amount, Nominal, ParameterValue, Thing, WorkCommand
 from fieldhand.planning.grammar.places.areas import edges
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.places.numbers import name_of
+from fieldhand.planning.grammar.places.planted_rows import rows_out_of
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import are_rows, is_one_row, over
+from fieldhand.planning.selections import are_rows, is_one_row, over, rows_kept
 from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
 from fieldhand.task.nodes.work_along import RowSides, WorkMode
 
 GRAMMAR = Grammar()
@@ -52,7 +54,8 @@ class Tract:
 )  # fmt: skip
 def rows_tract(rows: s.Selector, way: Lex | None = None) -> Tract | None:
     """Compose "along rows 3 to 8"."""
-    return Tract(rows, "rows", along=way is not None) if are_rows(rows) or rows == s.Rows() else None
+    known = are_rows(rows) or rows_kept(rows) is not None
+    return Tract(rows, "rows", along=way is not None) if known else None
 
 
 @construction(
@@ -124,16 +127,35 @@ def without_rows(part: Tract, out: s.Selector) -> Tract | None:
     return replace(part, selector=s.Excluding(places=out, of=part.selector))
 
 
-@construction("tract: where=region", "tract: in_ where=region", cost=0.4)
+@construction(
+    "tract: where=region", "tract: in_ where=region", "tract: where=crop_area", "tract: ALONG where=crop_area", cost=0.4
+)
 def ground(where: s.Selector) -> Tract | None:
     """Compose "the meadow" and "the north block"."""
     return None if are_rows(where) or where == edges() else Tract(where, None)
 
 
-@construction("tract: EVERYTHING", "tract: EVERYTHING BUT out=region", "tract: EACH OF site", "tract: site", cost=0.3)
+@construction(
+    "tract: EVERYTHING",
+    "tract: EVERYTHING BUT out=region",
+    "tract: EVERYTHING except out=region",
+    "tract: EACH OF site",
+    "tract: site",
+    "tract: site except out=region",
+    "tract: site BUT [NOT] out=region",
+    cost=0.3,
+)
 def whole_site(out: s.Selector | None = None) -> Tract:
     """Compose "everything but the wet corner"."""
     return Tract(s.Trees() if out is None else s.Excluding(places=out), None)
+
+
+@construction("tract: EACH [DET] inner=nominal", cost=0.6, given=("site",))
+def every_plant(inner: Nominal, site: Site) -> Tract | None:
+    """Compose "all tomatoes", where their rows have no other plants."""
+    if inner.single or inner.complete or inner.pronoun or are_rows(inner.selector):
+        return None
+    return Tract(inner.selector, "rows") if rows_out_of(inner.selector, site) is not None else None
 
 
 @construction("tract: ASMANY part=tract as_can", "tract: ASMANY noun=ROW as_can", cost=0.0)
@@ -152,10 +174,16 @@ def headlands(noun: Lex) -> Tract:
 
 
 @construction(
-    "edge_line: [DET] EDGE", "edge_line: [DET] EDGE OF where=region", "edge_line: [DET] EDGE OF site", cost=0.0
+    "edge_line: [DET] EDGE",
+    "edge_line: [DET] EDGE OF where=region",
+    "edge_line: [DET] EDGE OF site",
+    "edge_line: [DET] zone=ZONEPOSS EDGE",
+    cost=0.0,
 )
-def edge_line(where: s.Selector | None = None) -> s.Selector | None:
-    """Compose "the edge of the north block"."""
+def edge_line(where: s.Selector | None = None, zone: Lex | None = None) -> s.Selector | None:
+    """Compose "the edge of the north block" and "the pond's edge"."""
+    if zone is not None:
+        return s.InZone(zone=zone.value)
     return None if where is not None and are_rows(where) else where or s.Trees()
 
 
@@ -230,6 +258,8 @@ def work(
     if where is None:
         return [command]
     mode = where.mode or ("area" if covers else "rows")
+    if "cuts" in verb.features and mode == "rows":
+        return None  # "cut row 4" may be to prune it
     command = replace(command, along=where.selector, mode=mode, sides=where.sides, every=where.every)
     command = replace(command, optional=where.optional)
     if covers and mode == "rows" and not where.along and where.sides == "one" and not is_one_row(where.selector):

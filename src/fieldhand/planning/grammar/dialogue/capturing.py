@@ -536,6 +536,15 @@ def capture_again(setting: Setting, state: DialogueState, command: Again) -> Dia
     place, steps = command.place, _steps_before(state)
     if place is not None and place.shape == "area" and place.per is None:
         return repeated_in(setting, state, place.selector, command.used)
+    if (
+        place is not None
+        and place.shape == "several"
+        and not steps
+        and state.open
+        and state.scope
+        and place.per is None
+    ):
+        return capture(setting, state, CaptureCommand((Thing(LAST_THING),), place, command.used))
     if place is None or not steps or steps[-1].is_choice:
         return process_again(setting, state, command)
     if place.per is not None or steps[-1].is_optional_step or steps[-1].caught:

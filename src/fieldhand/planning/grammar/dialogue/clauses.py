@@ -48,6 +48,7 @@ from fieldhand.planning.grammar.dialogue.slow import ruled
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
+    OpenQuestion,
     Setting,
     with_assumption,
     with_joints,
@@ -101,6 +102,7 @@ from fieldhand.planning.selections import (
     AREAS,
     are_rows,
     are_unvisited,
+    has_open_number,
     is_block,
     is_in_block,
     over,
@@ -177,6 +179,9 @@ def _ended(setting: Setting, state: DialogueState) -> DialogueState:
     for _, node in walk(state.plan):
         if (loop := as_for_each(node)) is not None and _visits_open_number(loop):
             raise NotComposed(message("how many of the others?", context="fault"))
+        if loop is not None and has_open_number(loop.select):
+            said = setting.request.rstrip(" .")
+            raise OpenQuestion(message("'{said}': at how many places?", context="question", said=said))
         if node.is_series and any(step.ends_plan for step in node.children[:-1]):
             raise NotComposed(message("something follows the end of the mission", context="fault"))
         if node.is_choice and EMPTY in node.children:

@@ -45,6 +45,7 @@ from fieldhand.planning.selections import (
     measures_distance,
     starts_here,
     swapped,
+    with_number,
 )
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p
@@ -276,6 +277,9 @@ def put_in_order(setting: Setting, state: DialogueState, command: InAnOrder) -> 
         return replace(state, area=replace(state.area, place=place, used=state.area.used | command.used))
     if not command.by and _are_in_order(state):
         return _with_order_said(state, said)  # "tree 100, then 23, then 157, in that order"
+    if command.by == "any" and state.loop is None and _may_change_places(state):
+        free = p.AnyOrder(id="", steps=state.plan.steps, said=said)
+        return replace(state, plan=p.InOrder(id="", steps=(free,)), captured=None, choice=None, where=None)
     if state.loop is None:
         if state.order is not None or (state.commands_in_sentence and state.lead is None):
             raise NotComposed(message("an order needs several places", context="fault"))
@@ -283,6 +287,13 @@ def put_in_order(setting: Setting, state: DialogueState, command: InAnOrder) -> 
     path = state.loop[:-1]
     loop = for_each_at(state.plan, path)
     return replace(state, plan=with_node(state.plan, path, ordered(setting, loop, command, said)))
+
+
+def _may_change_places(state: DialogueState) -> bool:
+    """Return True for several captures, each at a place of its own, of which none depends on another."""
+    steps = state.plan.steps
+    alone = all(step.act is not None and step.selector is not None and not step.selector.relative for step in steps)
+    return alone and len(steps) > 1 and not state.scope and not state.awaits_command
 
 
 def with_order_kept(setting: Setting, state: DialogueState) -> DialogueState:
@@ -424,5 +435,6 @@ def limit_visits(setting: Setting, state: DialogueState, command: VisitLimit) ->
     if loop.optional or loop.at_most is not None or counted:
         raise NotComposed(message("it is not clear whether so many are meant, or at most so many", context="fault"))
     said = (*loop.said, *setting.spans_of(command.used))
-    limited = replace(loop, at_most=command.count, optional=command.count is None, said=said)
+    select = loop.select if command.count is None else with_number(loop.select, command.count)
+    limited = replace(loop, select=select, at_most=command.count, optional=command.count is None, said=said)
     return replace(state, plan=with_node(state.plan, path, limited))

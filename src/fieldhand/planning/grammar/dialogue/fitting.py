@@ -11,7 +11,7 @@ from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed
 from fieldhand.planning.grammar.meaning import DriveCommand, Lead, PlaceMeaning, Thing
 from fieldhand.planning.grammar.places.areas import of_each_block
 from fieldhand.planning.grammar.places.numbered import ids_of
-from fieldhand.planning.grammar.places.sampling import bare_zone
+from fieldhand.planning.grammar.places.sampling import bare_points, bare_zone
 from fieldhand.planning.grammar.row_by_row import MOST_ONE_BY_ONE, one_by_one
 from fieldhand.planning.selections import (
     AREAS,
@@ -327,12 +327,14 @@ def _of_area(
     setting: Setting, place: PlaceMeaning, things: tuple[Thing, ...], count: int | None, relation: str, used: int
 ) -> PlaceMeaning:
     """Return the trees of an area: all of them, or as many as there are captures; of bare ground so many points."""
-    if zone := bare_zone(place.selector, setting.site):
+    if (points := bare_points(place.selector, setting.site, count or 1)) is not None:
         if count is None and _are_plural(things):
             raise OpenQuestion(message("'{said}': at how many places?", context="question", said=setting.quoted(used)))
-        return PlaceMeaning(
-            s.PointsIn(zone=zone, count=count or 1), "several" if (count or 1) > 1 else "one", count=count
-        )
+        return PlaceMeaning(points, "several" if (count or 1) > 1 else "one", count=count)
+    zones = [bare_zone(part, setting.site) for part in place.selector.members]
+    if len(zones) > 1 and all(zones) and count in (None, 1, len(zones)):
+        each = s.UnionOf(parts=tuple(s.PointsIn(zone=zone) for zone in zones))  # "at the trough and the tap"
+        return PlaceMeaning(each, "several", each=True, count=len(zones))
     if count is None and _are_plural(things):
         return replace(place, shape="several")
     if relation in _OPEN and count in (None, 1) and setting.either("every tree, or how many?", used, (True, False)):

@@ -27,6 +27,7 @@ from fieldhand.planning.selections import (
     as_some,
     as_where,
     as_zone,
+    chosen_from,
     counts_in_row,
     is_block,
     is_by_attribute,
@@ -207,10 +208,14 @@ def _rest(state: DialogueState, area: s.Selector) -> s.Selector:
     if where is not None and where.shape == "one" and not where.selector.relative and area != s.Trees():
         return s.Excluding(places=where.selector, of=area)  # "tree 1 ..., all the other trees of row 1"
     last = None if where is None or where.shape != "several" else where.selector
-    if any(node.tested is not None for node in p.walk(state.plan)):
+    if last is not None and area != s.Trees() and not last.relative and chosen_from(last, area):
+        return s.Excluding(places=last, of=area)  # "six basil plants along the bed ..., the rest of the basil"
+    of_all = state.decided is not None and state.decided.of_series
+    if any(node.tested is not None for node in p.walk(state.plan)) and not of_all:
         last = None  # "those above 35 degrees ..., the others ...": those that did not pass
     group = getattr(last, "of", None) if area == s.Trees() else area
-    if last is None or group is None or last.relative or is_by_attribute(group) or as_some(last) is not None:
+    drawn = last is not None and any(hasattr(part, "seed") for part in last.walk())  # again, it draws others
+    if last is None or group is None or last.relative or is_by_attribute(group) or as_some(last) is not None or drawn:
         raise NotComposed(message("it is not clear which others are meant", context="fault"))
     return s.Excluding(places=last, of=group)
 
@@ -259,6 +264,9 @@ def _best_of_ranked(state: DialogueState, command: _WithPlace, best: s.Top) -> C
     """Return a command at the best of the trees that were ranked."""
     ranking = state.ranking
     last = None if ranking is not None or state.where is None else state.where.selector
+    of_area = best.attribute and isinstance(last, s.Top) and not is_by_attribute(last.of)
+    if of_area and best.count == 1 and command.place is not None and ranking is None:
+        return replace(command, place=replace(command.place, like=None))  # "in the northern half, ... the youngest"
     if isinstance(last, s.Top) and best.attribute in ("", last.attribute) and best.lowest != last.lowest:
         # "the ten weakest vines, then the ten strongest"
         best = replace(best, attribute=last.attribute, of=last.of)

@@ -39,7 +39,9 @@ def watched(setting: Setting, state: DialogueState, command: WatchCommand) -> Di
             speed_m_s=speed,
             during=command.during[0] if command.during else "",
         )
-        state = replace(state, watches=(*state.watches, one), after_watch=one.at_most_s is not None)
+        state = replace(
+            state, watches=(*state.watches, one), after_watch=one.at_most_s is not None or one.response == "end"
+        )
     if reaction.response == "wait" and reaction.stands and not reaction.over and reaction.at_most_s is None:
         return with_assumption(
             state,

@@ -45,12 +45,25 @@ def work_along(setting: Setting, state: DialogueState, command: WorkCommand) -> 
         mode=mode,
         sides=command.sides,
         every=command.every,
+        heading=command.heading,
         laps=command.laps,
         optional=command.optional,
         said=said,
     )
-    state = with_step(state, node)
+    state = _with_rests(state, replace(node, laps=1), command, said) if command.rest_s else with_step(state, node)
     return replace(state, loop=None, captured=None, where=None, commands_in_sentence=state.commands_in_sentence + 1)
+
+
+def _with_rests(state: DialogueState, once: p.WorkAlong, command: WorkCommand, said: Spans) -> DialogueState:
+    """Return the state after work in laps with a rest between one and the next."""
+    rest = p.Wait(id="", seconds=command.rest_s, said=said)
+    rounds: p.Node = p.InOrder(id="", steps=(once, rest))
+    if command.rests_last:
+        return with_step(state, p.Repeat(id="", times=command.laps, body=rounds, said=said))
+    if command.laps > 2:
+        rounds = p.Repeat(id="", times=command.laps - 1, body=rounds, said=said)
+        return with_step(with_step(state, rounds), once)
+    return with_step(with_step(with_step(state, once), rest), once)
 
 
 def driven_along(setting: Setting, state: DialogueState) -> DialogueState:

@@ -18,7 +18,7 @@ from fieldhand.site.earlier_missions import EarlierOutcome
 
 #: Quantity of work that is only said to be measured: the one that the plan measures there, or else any.
 SAME_MEASURE = "="
-#: Beginning of an action or a quantity of a clause that names no period: it may be of an earlier mission or of this one.
+#: Beginning of an action or a quantity of a clause that names no period, which may be of an earlier mission or of this.
 OPEN_TIME = "~"
 #: Action and quantity of a piece of work, of which one may be empty.
 Way = tuple[str, str]

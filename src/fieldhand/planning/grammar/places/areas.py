@@ -10,6 +10,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Likewise, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.places.nouns import extreme
+from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.places.numbers import name_of
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
@@ -19,6 +20,7 @@ from fieldhand.planning.selections import (
     as_edge,
     as_half,
     as_quota,
+    as_zone,
     chooses_from_trees,
     counts_in_row,
     is_block,
@@ -228,10 +230,19 @@ def block_as_region(block: s.Selector) -> s.Selector:
     "region: part=region in_ whole=region",
     "region: whole=block part=rows",
     cost=0.2,
+    given=("site",),
 )
-def part_of(part: s.Selector, whole: s.Selector) -> s.Selector | None:
-    """Compose "rows 3 to 5 of the northern half"."""
+def part_of(part: s.Selector, whole: s.Selector, site: Site) -> s.Selector | None:
+    """Compose "rows 3 to 5 of the northern half"; of a zone without plants it is a part of the ground."""
+    if isinstance(part, s.Half | s.Quarter) and part.of == s.Trees() and is_bare(whole, site):
+        return replace(part, of=whole)
     return over(part, whole) if chooses_from_trees(part) and _is_larger(whole, part) else None
+
+
+def is_bare(area: s.Selector, site: Site) -> bool:
+    """Return True for a zone in which no plants grow."""
+    zone = as_zone(area)
+    return zone is not None and zone == s.InZone(zone=zone.zone) and not (site.trees and ids_of(zone, site))
 
 
 def _is_larger(whole: s.Selector, part: s.Selector) -> bool:
@@ -403,6 +414,14 @@ def of_the_farm(where: s.Selector) -> s.Selector:
 @construction("place: [DET] zone=ZONEPOSS inner=nominal", cost=0.2)
 def of_the_zone(zone: Lex, inner: Nominal) -> PlaceMeaning | None:
     """Compose "the wet corner's northernmost tree"."""
-    if not inner.single or not chooses_from_trees(inner.selector):
+    if not (inner.single or inner.plural) or inner.complete or not chooses_from_trees(inner.selector):
         return None
-    return PlaceMeaning(over(inner.selector, s.InZone(zone=zone.value)), "one")
+    return PlaceMeaning(over(inner.selector, s.InZone(zone=zone.value)), "one" if inner.single else "several")
+
+
+@construction("nominal: zone=ZONE inner=nominal", cost=0.4)
+def plants_of_zone(zone: Lex, inner: Nominal) -> Nominal | None:
+    """Compose "warm section tomatoes"."""
+    if inner.single or inner.complete or inner.pronoun or inner.tested or not chooses_from_trees(inner.selector):
+        return None
+    return replace(inner, selector=over(inner.selector, s.InZone(zone=zone.value)))

@@ -15,7 +15,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.areas import inside
 from fieldhand.planning.grammar.places.compass import AWAY_FROM, CORNERS, SIDES
-from fieldhand.planning.grammar.places.counted import Positions, TreeNumbers, rows_within
+from fieldhand.planning.grammar.places.counted import Positions, TreeNumbers, row_of_all, rows_within
 from fieldhand.planning.grammar.places.numbers import VAGUE_NUMBERS
 from fieldhand.planning.grammar.places.rows import in_each_row
 from fieldhand.planning.grammar.places.steps import Distance
@@ -518,6 +518,12 @@ def evenly_along(rows: s.Selector) -> Choice:
     return Choice("evenly", rows)
 
 
+@construction("chosen_as: EVENLYALONG word=DET noun=ROW", "chosen_as: SPREAD word=DET noun=ROW", cost=0.0)
+def evenly_along_theirs(word: Lex, noun: Lex) -> Choice | None:
+    """Compose "spread evenly along the bed", of plants that all stand in one row."""
+    return Choice("evenly", s.RowOf()) if not noun.plural and "definite" in word.features else None
+
+
 @construction("chosen_as: [WHICH] WITH [DET] rank=ranking", "chosen_as: OF [DET] rank=ranking", cost=0.1)
 def with_the_most(rank: tuple[str, bool]) -> Choice | None:
     """Compose "with the highest yield"."""
@@ -623,6 +629,11 @@ def places_of(chosen: Chosen, site: Site, word: Lex | None = None) -> list[Place
     if indefinite and (chosen.inner.plural or chosen.count is not None) and chosen.choice.by != "nearby":
         return None
     numbers = _numbers(chosen, definite=word is not None)
+    if chosen.choice.by == "evenly" and chosen.choice.value == s.RowOf():
+        own = row_of_all(chosen.inner, site)  # "six basil plants spread evenly along the bed", which is theirs
+        chosen = chosen if own is None else replace(chosen, choice=replace(chosen.choice, value=own))
+    if chosen.choice is None:
+        return None
     made = [_place(chosen, choice, n) for choice in _named(chosen.choice, site) for n in numbers]
     if chosen.per is not None:
         made = [None if one is None else in_each_row(one, chosen.per) for one in made]
@@ -688,8 +699,8 @@ def _numbers(chosen: Chosen, *, definite: bool) -> Sequence[int | None]:
     if chosen.group:
         return (chosen.count or 1,) if chosen.preceded and choice is not None and choice.by != "of every" else ()
     if chosen.count is not None:
-        return (chosen.count,) if inner.plural == (chosen.count > 1) else ()
-    if not inner.plural:
+        return (chosen.count,) if inner.counts(chosen.count) else ()
+    if not inner.plural or inner.unmarked:
         return (1,)
     if choice is None:
         return ()

@@ -96,6 +96,8 @@ def denied(trait: Trait) -> Clause | None:
     if trait.test is None:
         return None if trait.outside else (replace(trait, outside=True, denied=True),)
     name, check, value = trait.test
+    if isinstance(value, bool):
+        return (Trait((name, check, not value), denied=True),)
     return (Trait((name, _OPPOSITE[check], value), denied=True),) if check in _OPPOSITE else None
 
 
@@ -128,7 +130,11 @@ def bare_clause(traits: Clause) -> Clause | None:
 
 
 @construction(
-    "relative: WITH traits=traits", "relative: OF test=attribute_test", "relative: WHERE test=attribute_test", cost=0.5
+    "relative: WITH traits=traits",
+    "relative: [which_is] RECORDEDAS [DET] traits=traits",
+    "relative: OF test=attribute_test",
+    "relative: WHERE test=attribute_test",
+    cost=0.5,
 )
 def with_clause(traits: Clause = (), test: AttributeTest | None = None) -> Clause:
     """Compose "with a yield above 10 kg" and "where the vigor is low"."""

@@ -8,8 +8,9 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning, Shape
 from fieldhand.planning.grammar.places.numbered import all_of, elsewhere, ids_of, numbered, runs
 from fieldhand.planning.grammar.row_by_row import MOST_ONE_BY_ONE, one_by_one
-from fieldhand.planning.selections import are_rows, is_one_row, over, swapped
+from fieldhand.planning.selections import are_rows, is_description, is_one_row, over, swapped
 from fieldhand.site.model import Site
+from fieldhand.site.planting import Row
 from fieldhand.terms import CountedFrom
 
 #: Numbers of the first and the last of several trees of a row, negative from its end; (0, n) for the n in the middle.
@@ -78,11 +79,31 @@ def rows_within(selector: s.Selector) -> s.Selector | None:
     return None if of is None else rows_within(of)
 
 
+def row_of_all(inner: Nominal, site: Site) -> s.Selector | None:
+    """Return the one row in which all trees of a description stand; None for trees of several rows, or of any."""
+    if not is_description(inner.selector):
+        return None
+    there = {int(site.planting.row_of[site.by_id[tree].index]) for tree in ids_of(inner.selector, site) or ()}
+    if len(there) != 1 or -1 in there:
+        return None
+    return row_itself(site.planting.rows[there.pop()], site)
+
+
+def row_itself(row: Row, site: Site) -> s.Selector:
+    """Return a row by its name, and by its block if another block has a row of that name."""
+    named = s.Rows(first=row.name, last=row.name)
+    alike = [other for other in site.planting.rows if other.name == row.name]
+    return named if len(alike) == 1 else replace(named, of=s.InBlock(block=site.planting.blocks[row.block].name))
+
+
 def trees_counted(inner: Nominal, at: Positions, site: Site) -> list[PlaceMeaning] | None:
     """Return the trees at some positions of the rows of a description."""
     of, rows = inner.selector, rows_within(inner.selector)
-    if rows is None:
-        return None
+    if rows is None:  # "the third Sungold", where all of them stand in one row
+        rows = row_of_all(inner, site)
+        if rows is None:
+            return None
+        of = over(of, rows)
     if at.either:
         ways = [trees_counted(inner, replace(at, spans=(one,), either=False), site) or [] for one in at.spans]
         return [place for way in ways for place in way]

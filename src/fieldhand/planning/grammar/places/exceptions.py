@@ -13,6 +13,8 @@ from fieldhand.planning.grammar.places.clauses import Clause, with_attribute
 from fieldhand.planning.grammar.places.compass import CORNERS
 from fieldhand.planning.grammar.places.counted import BOTH_ENDS, Span, rows_within
 from fieldhand.planning.grammar.places.numbered import all_of, elsewhere, ids_of, numbered
+from fieldhand.planning.grammar.places.planted_rows import rows_out_of
+from fieldhand.planning.grammar.places.points import outside_zones
 from fieldhand.planning.grammar.places.rows import rows_at
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
@@ -59,7 +61,7 @@ class Omission:
     trees: tuple[str, ...] = ()
     as_trees: bool = False
     or_so_many: bool = False
-    value: tuple[str, str] | None = None
+    value: tuple[str, str | bool] | None = None
     area: s.Selector | None = None
     positions: tuple[Span, ...] = ()
     rows: s.Selector | None = None
@@ -98,6 +100,14 @@ def numbers_out(trees: tuple[str, ...] = (), named: tuple[str, ...] = (), word: 
 def kind_out(value: Lex, area: s.Selector | None = None) -> list[Omission]:
     """Compose "the yellow ones"."""
     return [Omission(value=(name, text), area=area) for name, text in value.value]
+
+
+@construction(
+    "out: [DET] flag=FLAG ONE", "out: ANY flag=FLAG ONE", "out: [DET] flag=FLAG ONE in_ area=region", cost=0.0
+)
+def such_out(flag: Lex, area: s.Selector | None = None) -> list[Omission]:
+    """Compose "the covered ones"."""
+    return [Omission(value=(name, value), area=area) for name, value in flag.value]
 
 
 @construction("out: [DET] side=DIR ONE", cost=0.0)
@@ -184,6 +194,9 @@ def without(whole: PlaceMeaning, out: Omission, site: Site) -> list[PlaceMeaning
         return except_positions(whole, out.positions, out.rows)
     if out.positions and out.rows is not None:
         return except_positions(whole, out.positions, out.rows)
+    if whole.per is not None and out.value is not None:
+        rows = rows_left_out(whole.per, out, site)
+        return None if rows is None else [replace(whole, per=s.Excluding(places=rows, of=whole.per))]
     parts = _parts_out(whole, out, site)
     listed = named_places(whole.selector) or as_in_row(whole.selector) is not None
     whole = replace(whole, count=None) if listed else whole
@@ -237,6 +250,9 @@ def rows_left_out(rows: s.Selector, out: Omission, site: Site) -> s.Selector | N
     blocks = set(blocks_of(rows))
     if len(blocks) > 1 or (out.positions and any(row.every > 1 or row.first for row in rows_of(rows))):
         return None  # "rows 3 to 7 except the first": the third, or the first of the block?
+    if out.value is not None:  # "each bed except the covered ones"
+        kind = s.Where(attribute=out.value[0], test="eq", value=out.value[1], of=out.area or s.Trees())
+        return rows_out_of(kind, site)
     parts = [s.Rows(first=name, last=name) for name in out.trees] or [rows_at(*at, site) for at in out.positions]
     if not parts:
         return None
@@ -293,6 +309,8 @@ def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site) -> PlaceMean
         if not set(named_places(part.selector) or (part.selector,)) < set(named_places(whole.selector)):
             return None
         whole = replace(whole, count=None)
+    if (points := outside_zones(whole, part.selector)) is not None:
+        return points
     part = replace(part, like=None) if part.like is not None and part.like.kind == "those" else part
     if centre_of(whole.selector) == part.selector:
         return whole  # "the trees within 12 m of tree 40, but not tree 40 itself"

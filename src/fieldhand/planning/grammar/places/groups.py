@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import cast
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
@@ -142,12 +143,20 @@ def listed_places(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | l
 )
 def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[PlaceMeaning] | None:
     """Compose "tree 12 and the charger"."""
-    if first.per is not None or second.per is not None or first.like is not None:
+    named = first.like is None or _is_named_best(first)
+    if first.per is not None or second.per is not None or not named:
         return None
     if second.like is not None and second.like.kind == "those":
         second = replace(second, selector=kind_in_area(first.selector, second.selector), like=None)
+    if first.like is not None and _is_named_best(first):
+        first = replace(first, like=None)
     if second.like is not None and second.like.kind == "extreme":
         second = replace(second, like=None)
+    if _is_named_best(second):
+        best = cast(s.Top, second.selector)
+        known = as_top(first.selector)  # "the oldest Carmel and the youngest": of these
+        of = known.of if known is not None and best.attribute == known.attribute else best.of
+        second = replace(second, selector=replace(best, of=of), like=None)
     if second.like is not None:
         if (opposite := _other_end(first.selector, second.selector)) is None:
             return None
@@ -178,6 +187,12 @@ def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[Place
     # "The first tree and the last tree of row 4": is the first that of the row, too?
     in_row = tuple(over(part, counted.of) if is_end_of_site(part) else part for part in parts)
     return [whole, replace(whole, selector=s.UnionOf(parts=in_row))]
+
+
+def _is_named_best(place: PlaceMeaning) -> bool:
+    """Return True for "the oldest", which may be one of those named before it."""
+    best = as_top(place.selector)
+    return place.like is not None and place.like.kind == "ranked" and best is not None and bool(best.attribute)
 
 
 def _drawn(selector: s.Selector) -> s.Selector:

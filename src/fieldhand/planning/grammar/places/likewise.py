@@ -9,7 +9,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Likewise, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import chooses_from_trees
+from fieldhand.planning.selections import chooses_from_trees, is_by_attribute
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -62,6 +62,14 @@ def those_of_another_value(value: Lex, noun: Lex, each: Lex | None = None) -> li
     ]
 
 
+@construction("place: DET OTHER inner=nominal", cost=0.6)
+def other_ones_of_a_kind(inner: Nominal) -> PlaceMeaning | None:
+    """Compose "the other basil plants", of which some were named before."""
+    if not inner.plural or inner.single or inner.complete or not is_by_attribute(inner.selector):
+        return None
+    return PlaceMeaning(inner.selector, "several", like=Likewise("rest"))
+
+
 @construction("place: OTHERS", cost=4.0)
 @construction("place: DET OTHER noun=TREE", cost=0.5)
 def the_rest(noun: Lex | None = None) -> PlaceMeaning | None:
@@ -73,6 +81,7 @@ def the_rest(noun: Lex | None = None) -> PlaceMeaning | None:
 
 @construction(
     "place: OTHERS OF where=region",
+    "place: OTHERS OF where=crop_area",
     "place: DET OTHER noun=TREE in_ where=region",
     "place: EACH [DET] OTHER noun=TREE in_ where=region",
     cost=0.3,
@@ -82,6 +91,20 @@ def rest_of_area(where: s.Selector, noun: Lex | None = None) -> PlaceMeaning | N
     if noun is not None and not noun.plural:
         return None
     return PlaceMeaning(where, "several", like=Likewise("rest"))
+
+
+@construction("place: OTHERS OF DET ROW", "place: OTHERS OF DET PLOT", "place: OTHERS OFTHEM", cost=0.3)
+def rest_of_those() -> PlaceMeaning:
+    """Compose "the rest of the row", of the one some of whose trees were named before."""
+    return PlaceMeaning(s.Trees(), "several", like=Likewise("rest"))
+
+
+@construction("place: OTHERS OF [DET] inner=nominal", cost=0.5)
+def rest_of_kind(inner: Nominal) -> PlaceMeaning | None:
+    """Compose "the rest of the yellow trees"."""
+    if inner.single or inner.complete or inner.pronoun:
+        return None
+    return PlaceMeaning(inner.selector, "several", like=Likewise("rest"))
 
 
 @construction(

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any, Literal, cast
 
 from fieldhand.places import selectors as s
+from fieldhand.planning.english.naming import split
+from fieldhand.planning.english.plant_words import is_kind_attribute, is_unmarked
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Amount, Likewise, Nominal, PlaceMeaning
+from fieldhand.planning.grammar.places.attribute_units import attributes_in, in_unit_of_attribute
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
+from fieldhand.planning.grammar.places.numbers import amount
 from fieldhand.planning.grammar.words import Lex, hinted_attributes
 from fieldhand.planning.selections import chooses_from_trees
+from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.terms import Test
 
@@ -24,7 +30,9 @@ AttributeTest = tuple[str, AttributeCheck, Any]
 
 #: Test, value, unit, and the attribute if the words name it ("older than").
 Comparison = tuple[Test | Literal["between"], Any, str, str]
-#: Word in the name of the attribute that an amount is about, by its unit.
+#: Words in the names of attributes that are sizes of plants.
+_SIZES = ("size", "height", "diameter", "width", "spread", "girth", "weight")
+#: Word in the name of the attribute that a verb or an adjective is about, by its unit.
 _ATTRIBUTE_BY_UNIT = {"years": "age", "kg": "yield"}
 
 
@@ -34,7 +42,7 @@ def tree(noun: Lex) -> Nominal:
     return Nominal(s.Trees(), plural=noun.plural)
 
 
-@construction("which_is: WHICH [IS]", "which_is: IS", cost=0.0)
+@construction("which_is: WHICH [IS]", "which_is: WHICH [IS] STILL", "which_is: IS", cost=0.0)
 def which_is() -> str:
     """Compose "that are" before a description."""
     return "which"
@@ -67,10 +75,16 @@ def extreme_of_those(side: Lex) -> PlaceMeaning | None:
     return PlaceMeaning(s.Extreme(side=side.value), "one", like=Likewise("extreme", side=side.value))
 
 
-@construction("place: DET rank=ranking", cost=1.0)
-def best_one(rank: tuple[str, bool]) -> PlaceMeaning | None:
-    """Compose "the oldest"."""
-    return PlaceMeaning(s.Top(attribute=rank[0], count=1, lowest=rank[1]), "one") if rank[0] else None
+@construction("place: DET rank=ranking", cost=1.0, given=("robot",))
+def best_one(rank: tuple[str, bool], robot: RobotProfile) -> PlaceMeaning | None:
+    """Compose "the oldest"; "the driest" is rather that of the places whose moisture was read."""
+    if any(word in split(quantity.name) for word in split(rank[0]) for quantity in robot.quantities):
+        return None
+    return (
+        PlaceMeaning(s.Top(attribute=rank[0], count=1, lowest=rank[1]), "one", like=Likewise("ranked"))
+        if rank[0]
+        else None
+    )
 
 
 @construction("nominal: noun=ONE", cost=0.4)
@@ -139,24 +153,61 @@ def attribute_is_one_of(values: tuple[tuple[str, str], ...]) -> AttributeTest:
     return (values[0][0], "any", tuple(text for _, text in values))
 
 
-@construction("region: DET value=ATTRVAL", cost=0.8, given=("site",))
-def where_a_variety_grows(value: Lex, site: Site) -> list[s.Selector] | None:
+@construction("region: word=DET value=ATTRVAL", cost=0.8)
+def where_a_variety_grows(word: Lex, value: Lex) -> list[s.Selector] | None:
     """Compose "the Merlot" as an area."""
-    if value.plural:
+    if value.plural or "indefinite" in word.features:
         return None
-    varieties = hinted_attributes("variety", site)
-    return [s.Where(attribute=name, test="eq", value=text) for name, text in value.value if name in varieties]
-
-
-@construction("nominal: value=ATTRVAL", cost=0.8, given=("site",))
-def those_of_a_kind(value: Lex, site: Site) -> list[Nominal]:
-    """Compose "Nonpareil" without a noun; "yellow" needs one."""
-    kinds = hinted_attributes("variety", site)
     return [
-        Nominal(s.Where(attribute=name, test="eq", value=text), plural=True)
+        s.Where(attribute=name, test="eq", value=text)
         for name, text in value.value
-        if name in kinds or value.plural
+        if is_kind_attribute(name) and is_unmarked(name, text)
     ]
+
+
+@construction("crop_area: [word=DET] value=ATTRVAL", "crop_area: EACH [OF] [word=DET] value=ATTRVAL", cost=0.4)
+def where_a_crop_grows(value: Lex, word: Lex | None = None) -> list[s.Selector] | None:
+    """Compose "the carrots" as ground that is worked or crossed."""
+    if word is not None and "indefinite" in word.features:
+        return None
+    kinds = [(name, text) for name, text in value.value if is_kind_attribute(name)]
+    return [
+        s.Where(attribute=name, test="eq", value=text)
+        for name, text in kinds
+        if value.plural or is_unmarked(name, text)
+    ]
+
+
+@construction(
+    "crop_area: first=crop_area AND second=crop_area", "crop_area: first=crop_area COMMA second=crop_area",
+    "crop_area: first=crop_area COMMA AND second=crop_area",
+    cost=0.1,
+)  # fmt: skip
+def where_crops_grow(first: s.Selector, second: s.Selector) -> s.Selector | None:
+    """Compose "the leeks and the onions" as ground."""
+    return None if first == second else s.UnionOf(parts=(*first.members, *second.members))
+
+
+@construction("nominal: value=ATTRVAL", cost=0.8)
+def those_of_a_kind(value: Lex) -> list[Nominal]:
+    """Compose "Nonpareil", "courgettes" and "courgette" without another noun; "yellow" needs one."""
+    return [
+        Nominal(
+            s.Where(attribute=name, test="eq", value=text),
+            plural=value.plural or is_unmarked(name, text),
+            unmarked=not value.plural and is_unmarked(name, text),
+        )
+        for name, text in value.value
+        if value.plural or is_kind_attribute(name)
+    ]
+
+
+@construction("nominal: values=value_list", cost=0.8)
+def those_of_several_kinds(values: tuple[tuple[str, str], ...]) -> Nominal | None:
+    """Compose "leeks and onions"."""
+    if not all(is_kind_attribute(name) for name, _ in values):
+        return None
+    return Nominal(that_pass((values[0][0], "any", tuple(text for _, text in values)), s.Trees()), plural=True)
 
 
 def that_pass(test: AttributeTest, of: s.Selector) -> s.Selector:
@@ -197,7 +248,18 @@ def between(span: tuple[float, float, str]) -> Comparison:
 @construction("attribute_test: by=comparison [OF] attribute=ATTR", cost=0.2)
 def attribute_compared(attribute: Lex, by: Comparison) -> list[AttributeTest] | None:
     """Compose "yield above 10 kg", "vigor of 0.9 or more" and "a yield between 4 and 6 kg"."""
-    return None if by[3] else [(name, by[0], by[1]) for name in attribute.value]
+    return None if by[3] else tests_of(attribute.value, by)
+
+
+def tests_of(names: Iterable[str], by: Comparison) -> list[AttributeTest]:
+    """Return the tests of attributes by a comparison, in their own units; none of those that have another unit."""
+    check, value, unit, _ = by
+    found: list[AttributeTest] = []
+    for name in names:
+        numbers = [in_unit_of_attribute(name, one, unit) for one in (value if check == "between" else (value,))]
+        if None not in numbers:
+            found.append((name, check, tuple(numbers) if check == "between" else numbers[0]))
+    return found
 
 
 @construction(
@@ -211,19 +273,46 @@ def attribute_exactly(
     attribute: Lex, value: tuple[float, str] = (0.0, ""), exact: Amount | None = None
 ) -> list[AttributeTest]:
     """Compose "an age of 12 years" and "two years of age"."""
-    return [(name, "eq", value[0] if exact is None else exact.number) for name in attribute.value]
+    number, unit = value if exact is None else (exact.number, exact.unit)
+    return tests_of(attribute.value, ("eq", number, unit, ""))
 
 
 @construction("attribute_test: by=comparison", cost=0.2, given=("site",))
 def hinted(by: Comparison, site: Site) -> list[AttributeTest] | None:
     """Compose "older than 8 years" and "under 8 years", whose words or unit tell the attribute."""
-    check, value, unit, attribute = by
-    if unit not in ("", "metres", *_ATTRIBUTE_BY_UNIT):
-        return None
-    if attribute:
-        return [(attribute, check, value)]
-    names = hinted_attributes(_ATTRIBUTE_BY_UNIT[unit], site) if unit in _ATTRIBUTE_BY_UNIT else ()
-    return [(name, check, value) for name in names]
+    _, _, unit, attribute = by
+    return tests_of([attribute] if attribute else attributes_in(unit, site), by)
+
+
+@construction(
+    "attribute_test: by=comparison what=DIMENSION", "attribute_test: exact=amount [DASH] what=DIMENSION",
+    cost=0.1, given=("site",),
+)  # fmt: skip
+def of_that_dimension(
+    what: Lex, site: Site, by: Comparison | None = None, exact: Amount | None = None
+) -> list[AttributeTest] | None:
+    """Compose "under 22 cm tall" and "40 cm high"."""
+    told: Comparison = by if by is not None else ("eq", *((exact.number, exact.unit) if exact else (0.0, "")), "")
+    return None if told[3] else tests_of(hinted_attributes(what.value, site), told)
+
+
+@construction(
+    "attribute_test: GROWN value=figure", "attribute_test: no=NOTGROWN value=figure",
+    "attribute_test: GROWN value=figure what=DIMENSION", "attribute_test: no=NOTGROWN value=figure what=DIMENSION",
+    cost=0.1, given=("site",),
+)  # fmt: skip
+def grown_to(
+    value: tuple[float, str], site: Site, no: Lex | None = None, what: Lex | None = None
+) -> list[AttributeTest]:
+    """Compose "have reached 40 cm" and "haven't made 22 centimetres"."""
+    names = attributes_in(value[1], site) if what is None else hinted_attributes(what.value, site)
+    return tests_of(names, ("ge" if no is None else "lt", *value, ""))
+
+
+@construction("attribute_test: test=attribute_test YET", cost=0.1)
+def tested_so_far(test: AttributeTest) -> AttributeTest:
+    """Compose "haven't made 22 centimetres yet"."""
+    return test
 
 
 @construction("of_kind: word=AGED", "of_kind: ATTRVERB", cost=0.0)
@@ -247,10 +336,9 @@ def of_that_kind(
     """Compose "aged over 5", "between 5 and 10 years old", "yielded less than 5 kg" and "two years old"."""
     number, unit = value if exact is None else (exact.number, exact.unit)
     told: Comparison = ("eq", number, unit, "") if by is None else by
-    check, wanted, unit, attribute = told
-    if attribute or unit not in ("", kind):
+    if told[3] or told[2] not in ("", kind):
         return None
-    return [(name, check, wanted) for name in hinted_attributes(_ATTRIBUTE_BY_UNIT[kind], site)]
+    return tests_of(hinted_attributes(_ATTRIBUTE_BY_UNIT[kind], site), told)
 
 
 @construction("nominal: old=amount [DASH] OLD inner=nominal", cost=0.2, given=("site",))
@@ -268,11 +356,19 @@ def those_so_old(old: Amount, site: Site) -> list[Nominal] | None:
 
 
 @construction(
+    "value_range: BETWEEN low=NUM AND high=NUM [DASH] unit=UNIT",
+    "value_range: [FROM] low=NUM range_to high=NUM [DASH] unit=UNIT",
+    cost=0.5,
+)
+def value_range_of_unit(low: Lex, high: Lex, unit: Lex) -> tuple[float, float, str] | None:
+    """Compose "between 50 and 60 cm"."""
+    return value_range(amount(low, unit), amount(high, unit))
+
+
+@construction(
     "value_range: BETWEEN low=NUM AND high=NUM",
-    "value_range: BETWEEN low=NUM AND high=amount",
     "value_range: BETWEEN low=amount AND high=amount",
     "value_range: [FROM] low=NUM range_to high=NUM",
-    "value_range: [FROM] low=NUM range_to high=amount",
     "value_range: [FROM] low=amount range_to high=amount",
     cost=0.1,
 )
@@ -344,10 +440,10 @@ def extreme(side: Lex, inner: Nominal) -> Nominal | None:
     else:
         made = (
             s.AmongExtreme(side=side.value, of=inner.selector)
-            if inner.plural
+            if inner.plural and not inner.unmarked
             else s.Extreme(side=side.value, of=inner.selector)
         )
-    return replace(inner, selector=made, single=not inner.plural)
+    return replace(inner, selector=made, single=not inner.plural or inner.unmarked)
 
 
 @construction("nominal: rank=ORD inner=nominal", "owner: rank=ORD inner=owner", cost=0.2)
@@ -373,10 +469,12 @@ def last_of_site(inner: Nominal) -> Nominal | None:
     return replace(inner, selector=s.Last(), single=True)
 
 
-@construction("ranking: attribute=SUPER", cost=0.0)
-def ranking_word(attribute: Lex) -> tuple[str, bool]:
-    """Compose "oldest"."""
-    return cast("tuple[str, bool]", attribute.value)
+@construction("ranking: attribute=SUPER", cost=0.0, given=("site",))
+def ranking_word(attribute: Lex, site: Site) -> list[tuple[str, bool]]:
+    """Compose "oldest"; "biggest" may be about each size that the site records."""
+    name, lowest = cast("tuple[str, bool]", attribute.value)
+    sizes = [one for hint in _SIZES for one in hinted_attributes(hint, site)] if "of_size" in attribute.features else []
+    return [(name, lowest), *((one, lowest) for one in sizes)]
 
 
 @construction("ranking: rank=ranking [DASH] attribute=ATTR", cost=0.0)

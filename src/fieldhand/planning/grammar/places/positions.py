@@ -151,7 +151,7 @@ def at_positions(at: Positions, chosen: Chosen) -> Chosen | None:
         return None
     if inner.kind != "tree" or inner.pronoun or not chooses_from_trees(inner.selector):
         return None
-    if len(at.spans) == 1 and (inner.plural != (size_of(at.spans[0]) != 1) or at.spans == ((0, 1),)):
+    if len(at.spans) == 1 and (not inner.counts(size_of(at.spans[0])) or at.spans == ((0, 1),)):
         return None
     sizes = [size_of(span) for span in at.spans]
     if inner.plural and sizes[-1] == 1 and max(sizes) > 1:

@@ -74,7 +74,7 @@ def quantified(quantity: Determiner, inner: Nominal, site: Site) -> list[PlaceMe
         return _so_many(quantity, n, inner, site)
     if inner.complete:
         return [PlaceMeaning(inner.selector, "several", count=inner.complete)]
-    if kind in ("a", "some") and not inner.plural:
+    if (kind in ("a", "some") and not inner.plural) or (kind == "a" and inner.unmarked):
         return [PlaceMeaning(s.Take(count=1, of=inner.selector), "one")]
     if kind == "some":
         return [PlaceMeaning(s.Take(count=n, of=inner.selector), "several", count=n) for n in VAGUE_NUMBERS]

@@ -10,7 +10,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import THOSE_ROWS, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.places.counted import Positions, size_of
-from fieldhand.planning.grammar.places.numbered import all_of, ids_of
+from fieldhand.planning.grammar.places.numbered import all_of
 from fieldhand.planning.grammar.places.numbers import name_of, whole
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
@@ -198,33 +198,6 @@ def same_row(noun: Lex) -> s.Selector:
 def row_of_tree(tree: PlaceMeaning) -> s.Selector | None:
     """Compose "the row of tree 12"."""
     return s.RowOf(origin=tree.selector) if tree.selector == s.Here() or isinstance(tree.selector, s.TreeIs) else None
-
-
-@construction(
-    "rows: [DET] value=ATTRVAL noun=ROW", "rows: DET noun=ROW OF value=ATTRVAL [TREE]", cost=0.2, given=("site",)
-)
-def rows_of_kind(value: Lex, noun: Lex, site: Site) -> list[s.Selector] | None:
-    """Compose "the Merlot rows", where no row has trees of two kinds."""
-    kinds = [s.Where(attribute=name, test="eq", value=text) for name, text in value.value]
-    return [s.Rows(of=kind) for kind in kinds if _fills_rows(kind, site)] if noun.plural else None
-
-
-@construction(
-    "each_row: EACH value=ATTRVAL noun=ROW",
-    "each_row: EACH noun=ROW OF value=ATTRVAL [TREE]",
-    cost=0.2,
-    given=("site",),
-)
-def each_row_of_kind(value: Lex, noun: Lex, site: Site) -> list[s.Selector] | None:
-    """Compose "each Merlot row"."""
-    return None if noun.plural else rows_of_kind(value, replace(noun, plural=True), site)
-
-
-def _fills_rows(kind: s.Selector, site: Site) -> bool:
-    """Return True if a row with one tree of a kind has no others, and there is such a row."""
-    trees = set(ids_of(kind, site) or ())
-    rows = [{site.trees[tree].place.id for tree in row.trees} for row in site.planting.rows]
-    return bool(trees) and all(row <= trees or not row & trees for row in rows)
 
 
 @construction("rows: [DET] NEXTROW", cost=0.1)

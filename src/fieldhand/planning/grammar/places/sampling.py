@@ -9,10 +9,13 @@ from fieldhand.places import selectors as s
 from fieldhand.places.points.transect import PathShape
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Amount, Nominal, PlaceMeaning
+from fieldhand.planning.grammar.places.areas import edges
 from fieldhand.planning.grammar.places.chosen import Choice
+from fieldhand.planning.grammar.places.exceptions import Omission
 from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.places.points import outside_zones
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import as_some, as_zone, chooses_from_trees, over, rows_of
+from fieldhand.planning.selections import OPEN_NUMBER, as_some, as_zone, chooses_from_trees, over, rows_of
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -29,11 +32,22 @@ class SamplingPath:
     shape: PathShape
     legs: int
 
-    def over(self, area: s.Selector | None, site: Site, *, count: int = 0, apart_m: float = 0.0) -> s.Selector:
-        """Return so many places, or places so far apart, along the path across an area, or across the site."""
-        zone = "" if area is None else bare_zone(area, site)
-        made = self.among(s.Trees() if area is None or zone else area, count)
-        return replace(made, apart_m=apart_m, zone=zone)
+    def over(self, area: s.Selector | None, site: Site, *, count: int = 0, apart_m: float = 0.0) -> s.Selector | None:
+        """Return so many places, or places so far apart, along the path across an area, or across the site.
+
+        None if the area is ground without trees that has no name.
+        """
+        if self.shape == "edge":
+            known = None if area is None else as_zone(area)
+            return s.Transect(count=count, apart_m=apart_m, shape="edge", zone="" if known is None else known.zone)
+        ground = bare_ground(area, site)
+        if ground is not None:
+            if ground.left_out and not apart_m:
+                return None  # so many in all, of which some would be left out
+            return ground.without(replace(self.among(s.Trees(), count), apart_m=apart_m, zone=ground.zone))
+        if not site.trees:
+            return None
+        return replace(self.among(s.Trees() if area is None else area, count), apart_m=apart_m)
 
     def among(self, of: s.Selector, count: int) -> s.Transect:
         """Return so many trees of a group along the path across it."""
@@ -46,6 +60,66 @@ def bare_zone(area: s.Selector, site: Site) -> str:
     if zone is None or zone.outside or zone.margin_m or zone.of != s.Trees():
         return ""
     return "" if site.trees and ids_of(zone, site) else zone.zone
+
+
+@dataclass(frozen=True, slots=True)
+class BareGround:
+    """Ground without trees.
+
+    Attributes:
+        zone: Name of the zone; empty for the whole site.
+        left_out: Names of the zones that are left out of it.
+    """
+
+    zone: str
+    left_out: tuple[str, ...] = ()
+
+    def without(self, points: s.Selector) -> s.Selector:
+        """Return points but those in the zones that are left out."""
+        for name in self.left_out:
+            points = s.InZone(zone=name, outside=True, of=points)
+        return points
+
+
+def bare_ground(area: s.Selector | None, site: Site) -> BareGround | None:
+    """Return the ground that an area is, if no trees grow in it and it has a name; None otherwise."""
+    if area is None or area == s.Trees():
+        return None if site.trees else BareGround("")
+    if isinstance(area, s.Excluding):
+        inner = bare_ground(area.of, site)
+        outs = [as_zone(part) for part in area.places.members]
+        plain = [one.zone for one in outs if one is not None and not one.outside and not one.margin_m]
+        return replace(inner, left_out=(*inner.left_out, *plain)) if inner and len(plain) == len(outs) else None
+    zone = bare_zone(area, site)
+    return BareGround(zone) if zone else None
+
+
+def is_on_bare_ground(points: s.Selector, site: Site) -> bool:
+    """Return True for a grid or a path over ground without trees, some of whose points may be left out."""
+    zone = as_zone(points)
+    points = zone.of if zone is not None and zone.outside else points
+    named = isinstance(points, s.Grid | s.Transect) and bool(points.zone)
+    return named or (isinstance(points, s.Grid | s.Transect) and not site.trees)
+
+
+def is_keep_out(area: s.Selector, site: Site) -> bool:
+    """Return True for something that the robot can only drive along or around: a fence, a pond, a building."""
+    zone = as_zone(area)
+    named = [one for one in site.zones if zone is not None and one.name == zone.zone]
+    return bool(named) and all(one.kind == "keep_out" for one in named)
+
+
+def bare_points(area: s.Selector, site: Site, count: int, *, random: bool = False) -> s.PointsIn | None:
+    """Return so many free points of ground without plants: a zone, a half or a quarter of one; None for other areas."""
+    match area:
+        case s.Half(side=part, of=of) | s.Quarter(quarter=part, of=of):
+            whole = bare_points(of, site, count, random=random)
+            return replace(whole, part=part) if whole is not None and whole.part == "all" else None
+        case s.Trees() if not site.trees:
+            return s.PointsIn(count=count, random=random)
+        case _:
+            zone = bare_zone(area, site)
+            return s.PointsIn(zone=zone, count=count, random=random) if zone else None
 
 
 # Shares.
@@ -143,16 +217,66 @@ def in_path(path: SamplingPath) -> SamplingPath:
 
 @construction(
     "path_over: path=in_path OVER where=region",
+    "path_over: path=path OVER where=region",
     "path_over: path=in_path OPPOSITE where=region",
+    "path_over: path=in_path OVER where=crop_area",
+    "path_over: path=in_path in_ where=crop_area",
+    "path_over: GO OVER where=crop_area path=in_path",
+    "path_over: GO where=crop_area path=in_path",
     "path_over: path=in_path in_ where=region",
     "path_over: GO OVER where=region path=in_path",
     "path_over: GO in_ where=region path=in_path",
     "path_over: GO where=region path=in_path",
+    "path_over: CROSSV where=region path=in_path",
     cost=0.1,
 )
 def path_over(path: SamplingPath, where: s.Selector) -> tuple[SamplingPath, s.Selector | None]:
     """Compose "in a W through the north block"."""
     return path, where
+
+
+@construction(
+    "path_over: ALONG line=edge_line",
+    "path_over: EVENLYALONG line=edge_line",
+    "path_over: AROUND line=edge_line",
+    "path_over: AROUND ALONG line=edge_line",
+    "path_over: AROUND where=region",
+    "path_over: AROUND site",
+    "path_over: GO [one=ONCE] line=edge_line",
+    "path_over: GO [one=ONCE] ALONG line=edge_line",
+    "path_over: GO [one=ONCE] AROUND line=edge_line",
+    "path_over: GO AROUND line=edge_line one=ONCE",
+    "path_over: GO [one=ONCE] AROUND ALONG line=edge_line",
+    "path_over: GO [one=ONCE] AROUND where=region",
+    "path_over: GO AROUND where=region one=ONCE",
+    "path_over: GO [one=ONCE] AROUND site",
+    "path_over: GO AROUND site one=ONCE",
+    "path_over: ALONG fence=region",
+    "path_over: GO [one=ONCE] ALONG fence=region",
+    "path_over: GO ALONG fence=region one=ONCE",
+    "path_over: GO [one=ONCE] AROUND ALONG fence=region",
+    "path_over: GO [one=ONCE] fence=region",
+    cost=0.2,
+    given=("site",),
+)
+def along_edge(
+    site: Site,
+    line: s.Selector | None = None,
+    where: s.Selector | None = None,
+    fence: s.Selector | None = None,
+    one: Lex | None = None,
+) -> tuple[SamplingPath, s.Selector | None] | None:
+    """Compose "along the fence" and "once round the pond", of captures on the way."""
+    del one
+    if fence is not None and not is_keep_out(fence, site):
+        return None
+    area = line if where is None else where
+    area = area if fence is None else fence
+    if area is None or area == s.Trees() or area == edges():
+        return SamplingPath("edge", 1), None
+    zone = as_zone(area)
+    whole = zone is not None and not zone.outside and not zone.margin_m and zone.of == s.Trees()
+    return (SamplingPath("edge", 1), area) if whole else None
 
 
 @construction(
@@ -180,10 +304,11 @@ def chosen_along_path(along: tuple[SamplingPath, s.Selector | None]) -> Choice:
     cost=0.2,
     given=("site",),
 )
-def points_on_path(n: int, along: tuple[SamplingPath, s.Selector | None], site: Site) -> PlaceMeaning:
+def points_on_path(n: int, along: tuple[SamplingPath, s.Selector | None], site: Site) -> PlaceMeaning | None:
     """Compose "20 points in a W through the meadow"."""
     route, where = along
-    return PlaceMeaning(route.over(where, site, count=n), "several", count=n)
+    points = route.over(where, site, count=n)
+    return None if points is None else PlaceMeaning(points, "several", count=n)
 
 
 # Grids.
@@ -216,6 +341,8 @@ def grid(far: Amount, far2: Amount | None = None, number: Lex | None = None) -> 
     "on_grid: WITH every=cells",
     "on_grid: INPATH every=cells",
     "on_grid: NEXTONE every=cells",
+    "on_grid: LAYOUT every=cells",
+    "on_grid: OF every=cells",
     "on_grid: ALONG every=cells",
     cost=0.0,
 )
@@ -238,10 +365,25 @@ def grid_over(every: float, where: s.Selector | None = None) -> tuple[float, s.S
     return every, where
 
 
-def grid_selector(every: float, area: s.Selector | None, site: Site) -> s.Selector:
-    """Return the places of a grid over an area, or over the site."""
-    zone = "" if area is None else bare_zone(area, site)
-    return s.Grid(every_m=every, zone=zone, of=s.Trees() if area is None or zone else area)
+@construction("grid_over: on=grid_over out=but_out", cost=0.1)
+def grid_but(on: tuple[float, s.Selector | None], out: Omission) -> tuple[float, s.Selector | None] | None:
+    """Compose "on a 20 m grid over the meadow except in the wet corner"."""
+    if on[1] is None or out.place is None or any(as_zone(one) is None for one in out.place.selector.members):
+        return None
+    return on[0], s.Excluding(places=out.place.selector, of=on[1])
+
+
+def grid_selector(every: float, area: s.Selector | None, site: Site) -> s.Selector | None:
+    """Return the places of a grid over an area, or over the site; None for ground without trees that has no name."""
+    if isinstance(area, s.Excluding):  # "over the meadow except the wet corner"
+        inner = grid_selector(every, area.of, site)
+        kept = None if inner is None else outside_zones(PlaceMeaning(inner, "several"), area.places)
+        if kept is not None:
+            return kept.selector
+    ground = bare_ground(area, site)
+    if ground is not None:
+        return ground.without(s.Grid(every_m=every, zone=ground.zone))
+    return s.Grid(every_m=every, of=s.Trees() if area is None else area) if site.trees else None
 
 
 @construction("place: [DET] inner=nominal on=grid_over", "place: [DET] POINT on=grid_over", cost=0.2, given=("site",))
@@ -251,11 +393,13 @@ def places_on_grid(
     """Compose "the vines on a 20 m grid" and "points on a 20 m grid over the meadow"."""
     every, where = on
     if inner is None:
-        return PlaceMeaning(grid_selector(every, where, site), "several", each=True)
+        points = grid_selector(every, where, site)
+        return None if points is None else PlaceMeaning(points, "several", each=True)
     if inner.single or inner.complete or not inner.plural or not chooses_from_trees(inner.selector):
         return None
     of = inner.selector if where is None else over(inner.selector, where)
-    return PlaceMeaning(grid_selector(every, of, site), "several", each=True)
+    trees = grid_selector(every, of, site)
+    return None if trees is None else PlaceMeaning(trees, "several", each=True)
 
 
 # Points at random.
@@ -272,6 +416,20 @@ def places_on_grid(
 def random_points(n: int, zone: Lex) -> PlaceMeaning:
     """Compose "12 random places in the meadow"."""
     return PlaceMeaning(s.PointsIn(zone=zone.value, count=n, random=True), "one" if n == 1 else "several", count=n)
+
+
+@construction(
+    "place: RANDOM inner=nominal",
+    "place: RANDOM inner=nominal OF where=region",
+    "place: RANDOM inner=nominal in_ where=region",
+    cost=0.6,
+)
+def open_random_trees(inner: Nominal, where: s.Selector | None = None) -> PlaceMeaning | None:
+    """Compose "random vines of the north block", of which something else says how many at most."""
+    if inner.single or inner.complete or not inner.plural or inner.pronoun or as_some(inner.selector) is not None:
+        return None
+    of = inner.selector if where is None else over(inner.selector, where)
+    return PlaceMeaning(s.RandomSample(count=OPEN_NUMBER, of=of), "several") if chooses_from_trees(of) else None
 
 
 # Gaps.

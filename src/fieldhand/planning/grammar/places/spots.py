@@ -119,7 +119,9 @@ def middle_of(where: s.Selector, noun: Lex | None = None) -> PlaceMeaning | list
     return PlaceMeaning(s.Middle(of=where), "one")
 
 
-@construction("halfway: HALFWAY where=rows", cost=0.0)
+@construction(
+    "halfway: HALFWAY where=rows", "halfway: HALFWAY where=each_row", "halfway: HALFWAY where=all_rows", cost=0.0
+)
 def halfway(where: s.Selector) -> PlaceMeaning:
     """Compose "halfway along row 4", which needs no word before it."""
     if is_one_row(where):
@@ -212,6 +214,22 @@ def corners_in_turn(noun: Lex, at: tuple[CornerName, ...], n: int | None = None)
 def gate(gate: Lex) -> PlaceMeaning:
     """Compose "north gate", the name of a gate."""
     return PlaceMeaning(s.GateIs(gate=gate.value), "one")
+
+
+@construction(
+    "place: EACH noun=GATES", "place: EACH DET noun=GATES", "place: EACH OF DET noun=GATES", "place: [DET] gates=GATES",
+    "place: [DET] n=count noun=GATES", "place: EACH n=count noun=GATES", "place: EACH [OF] DET n=count noun=GATES",
+    cost=0.2,
+)  # fmt: skip
+def every_gate(noun: Lex | None = None, gates: Lex | None = None, n: int | None = None) -> PlaceMeaning | None:
+    """Compose "every gate", "the gates" and "the two gates"."""
+    named = gates or noun
+    if named is None or (gates is not None and not gates.plural) or n not in (None, len(named.value)):
+        return None
+    parts = tuple(s.GateIs(gate=name) for name in named.value)
+    if len(parts) < 2:
+        return None
+    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=len(parts), each=gates is None)
 
 
 @construction("corner_list: [DET] side=DIR", cost=0.0)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from datetime import date
+from typing import Literal
 
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.times.meaning import ROUGHLY_MIN, TimePart
@@ -214,10 +215,91 @@ def between_hours(begin: Lex, end: DayTime) -> TimePart | None:
     return None if first is None else TimePart(not_before=first, done_by=end)
 
 
+@construction("part: ASSOON at=sun_alone", cost=0.1)
+def as_soon_as_the_sun(at: DayTime) -> TimePart:
+    """Compose "as soon as the sun is up"."""
+    return TimePart(at=(at,))
+
+
+@construction("sun_alone: sun=SUN", cost=0.0)
+def sun_alone(sun: Lex) -> DayTime | None:
+    """Compose "the sun is up"; "sunrise" is no clause."""
+    return DayTime(sun=sun.value) if " " in sun.text else None
+
+
+@construction("part: WAITUNTIL begin=daytime", "part: WAITUNTIL begin=daytime day=part", cost=0.0)
+def wait_until(begin: DayTime, day: TimePart | None = None) -> TimePart | None:
+    """Compose "wait until sunset"."""
+    first = TimePart(not_before=begin)
+    return first if day is None else first & day
+
+
+@construction("part: WAITUNTIL hour=hour day=part", cost=0.0)
+def wait_until_hour(hour: float, day: TimePart) -> TimePart | None:
+    """Compose "wait until seven this evening"."""
+    return hour_of_day(day, TimePart(hour_after=hour))
+
+
 @construction("part: UNTIL end=daytime", cost=0.3)
 def until_a_time(end: DayTime) -> TimePart:
     """Compose "until 8 pm", of a mission that runs again and again."""
     return TimePart(repeats=True, done_by=end)
+
+
+# --- hours of the clock of 12 hours, beside a day or a part of it ---------------------------------------------------
+
+
+@construction("hour: said=HOUR12", "hour: said=HOUR12 OCLOCK", cost=0.0)
+def bare_hour(said: Lex) -> float:
+    """Compose "nine"."""
+    return float(said.value)
+
+
+@construction("hour: at=spoken", cost=0.0)
+def spoken_hour(at: tuple[float, float]) -> float:
+    """Compose "half past nine"."""
+    return at[0] + at[1] / 60
+
+
+@construction("hour_part: AT at=hour", "hour_part: SAYABOUT at=hour", cost=0.1)
+def at_hour(at: float) -> TimePart:
+    """Compose "at nine"."""
+    return TimePart(hour_at=at)
+
+
+@construction("hour_part: AROUND at=hour", "hour_part: AT AROUND at=hour", cost=0.1)
+def at_about_hour(at: float) -> TimePart:
+    """Compose "at about nine"."""
+    return TimePart(hour_at=at, late_min=ROUGHLY_MIN)
+
+
+@construction("hour_part: AFTER begin=hour", "hour_part: AFTER begin=hour ON", "hour_part: FROM begin=hour", cost=0.1)
+@construction("hour_part: FROM begin=hour ONWARDS", "hour_part: FROM AT begin=hour", cost=0.0)
+@construction("hour_part: ATEARLIEST [AT] begin=hour", "hour_part: [AT] begin=hour ATEARLIEST", cost=0.0)
+def after_hour(begin: float) -> TimePart:
+    """Compose "not before nine"."""
+    return TimePart(hour_after=begin)
+
+
+@construction("hour_part: BEFORE end=hour", "hour_part: BY end=hour", "hour_part: FINISH BY end=hour", cost=0.1)
+@construction("hour_part: FINISH BEFORE end=hour", "hour_part: FINISH AT end=hour", cost=0.0)
+def before_hour(end: float) -> TimePart:
+    """Compose "by five"."""
+    return TimePart(hour_before=end)
+
+
+@construction("hour_part: BETWEEN begin=hour AND end=hour", "hour_part: FROM begin=hour TO end=hour", cost=0.0)
+def between_bare_hours(begin: float, end: float) -> TimePart:
+    """Compose "between two and four"."""
+    return TimePart(hour_after=begin, hour_before=end)
+
+
+@construction("part: day=part hours=hour_part", "part: day=part COMMA hours=hour_part", cost=0.1)
+@construction("part: hours=hour_part day=part", "part: hours=hour_part COMMA day=part", cost=0.1)
+def hour_of_day(day: TimePart, hours: TimePart) -> TimePart | None:
+    """Compose "tomorrow, not before nine"."""
+    says_day = day.day or day.weekdays or day.repeats or day.half
+    return day & hours if says_day and not day.at else None
 
 
 # --- days ---------------------------------------------------------------------------------------------------------
@@ -299,19 +381,30 @@ def on_a_day(on: str = "", n: Lex | None = None) -> TimePart | None:
 @construction("part: NEXT said=WEEKDAY when=DAYPART", cost=0.1)
 def part_of_a_day(said: Lex, when: Lex) -> TimePart:
     """Compose "tomorrow morning"."""
-    return TimePart(day=said.value, choices=_times(when.value))
+    return TimePart(day=said.value, choices=_times(when.value), half=_half(when))
+
+
+@construction("part: THISONE when=DAYPART", cost=0.1)
+def part_of_today(when: Lex) -> TimePart:
+    """Compose "this evening" beside an hour; alone it says no time."""
+    return TimePart(day="today", half=_half(when), needs_hour=True)
+
+
+def _half(when: Lex) -> Literal["am", "pm"]:
+    """Return the half of the day that a part of it lies in."""
+    return "am" if "morning" in when.text else "pm"
 
 
 @construction("part: TONIGHT", cost=0.1)
 def tonight() -> TimePart:
     """Compose "tonight"."""
-    return TimePart(day="today", choices=_times(("20:00", "22:00", "dusk")))
+    return TimePart(day="today", choices=_times(("20:00", "22:00", "dusk")), half="pm")
 
 
 @construction("part: IN THE when=DAYPART", "part: AT when=DAYPART", "part: DURING THE when=DAYPART", cost=0.3)
 def in_part_of_day(when: Lex) -> TimePart:
     """Compose "in the morning"."""
-    return TimePart(choices=_times(when.value))
+    return TimePart(choices=_times(when.value), half=_half(when))
 
 
 def _times(texts: tuple[str, ...]) -> tuple[DayTime, ...]:
@@ -331,7 +424,27 @@ def daily() -> TimePart:
 @construction("part: EVERY when=DAYPART", cost=0.0)
 def every_part(when: Lex) -> TimePart:
     """Compose "every morning"."""
-    return TimePart(repeats=True, choices=_times(when.value))
+    return TimePart(repeats=True, choices=_times(when.value), half=_half(when))
+
+
+@construction("part: TWICEDAILY", cost=0.0)
+def twice_daily() -> TimePart:
+    """Compose "twice a day", whose times are said beside it."""
+    return TimePart(repeats=True, times_a_day=2)
+
+
+@construction("part: EVERY n=ORD when=DAYPART", "part: EVERY n=NUM when=DAYPARTS", cost=0.0)
+def every_third_morning(n: Lex, when: Lex) -> TimePart | None:
+    """Compose "every third morning"."""
+    if n.value != int(n.value) or not 1 < n.value <= 366:
+        return None
+    return TimePart(repeats=True, every_days=int(n.value), choices=_times(when.value), half=_half(when))
+
+
+@construction("part: FIRSTTHING", cost=0.1)
+def first_thing() -> TimePart:
+    """Compose "first thing" beside a day."""
+    return TimePart(choices=_times(("06:00", "08:00", "sunrise")), half="am", needs_day=True)
 
 
 @construction("part: HOURLY", cost=0.0)
@@ -438,6 +551,12 @@ def on_mondays(day: Lex, when: Lex | None = None) -> TimePart:
     return _repeated((day.value,), when)
 
 
+@construction("part: day=WEEKDAYS AND days=dayset", "part: day=WEEKDAYS COMMA days=dayset", cost=0.2)
+def mondays_and_more(day: Lex, days: tuple[str, ...]) -> TimePart:
+    """Compose "Mondays and Thursdays" without a preposition."""
+    return _repeated((day.value, *days), None)
+
+
 @construction("part: days=SEVERALDAYS", cost=0.4)
 def weekdays(days: Lex) -> TimePart:
     """Compose "weekdays" without a preposition."""
@@ -447,7 +566,7 @@ def weekdays(days: Lex) -> TimePart:
 def _repeated(days: tuple[str, ...], when: Lex | None) -> TimePart:
     choices = () if when is None else _times(when.value)
     known = tuple(day for day in WEEKDAYS if day in days)
-    return TimePart(repeats=True, weekdays=known, choices=choices)
+    return TimePart(repeats=True, weekdays=known, choices=choices, half="" if when is None else _half(when))
 
 
 # --- bounds of the days -------------------------------------------------------------------------------------------
@@ -475,6 +594,12 @@ def from_day_to_day(begin: str, end: str) -> TimePart:
 def for_a_week() -> TimePart:
     """Compose "for a week"."""
     return TimePart(repeats=True, last_day="+6")
+
+
+@construction("part: FOR AN FORTNIGHT", "part: FOR THE NEXT FORTNIGHT", "part: FOR FORTNIGHT", cost=0.0)
+def for_a_fortnight() -> TimePart:
+    """Compose "for a fortnight"."""
+    return TimePart(repeats=True, last_day="+13")
 
 
 @construction("part: FOR n=NUM unit=LONG", cost=0.0)

@@ -31,6 +31,26 @@ _TABLES = {
     "several_weekdays": "SEVERALDAYS",
     "month": "MONTH",
 }
+#: First words of commands that the vocabulary lacks, since they are those of robots.
+_COMMANDS = frozenset(
+    {
+        "photograph",
+        "image",
+        "snap",
+        "film",
+        "spray",
+        "mow",
+        "record",
+        "scan",
+        "video",
+        "cut",
+        "please",
+        "have",
+        "let",
+        "we",
+    }
+    | {"i", "you", "can", "could", "would", "and", "then"}
+)
 #: Days of a unit of time.
 _LONG = {"day": 1, "days": 1, "week": 7, "weeks": 7}
 
@@ -60,6 +80,7 @@ def time_edges(words: Sequence[Word]) -> Iterator[PhraseEdge]:
     known = _entries()
     for start, word in enumerate(words):
         yield from _numbers(words, start)
+        yield from _hours(words, start)
         phrase: list[str] = []
         for end in range(start + 1, min(start + _LONGEST, len(words)) + 1):
             phrase.append(words[end - 1].norm.lower())
@@ -92,6 +113,38 @@ def _numbers(words: Sequence[Word], start: int) -> Iterator[PhraseEdge]:
     for number in spelt_numbers(words, start):
         text = " ".join(one.norm for one in words[start : number.end])
         yield _edge("ORD" if number.is_rank else "NUM", start, number.end, float(number.value), text)
+
+
+def _hours(words: Sequence[Word], start: int) -> Iterator[PhraseEdge]:
+    """Yield a number from 1 to 12 that may be an hour, by the word behind it: "at 5 yellow trees" names none."""
+    word = words[start]
+    number = vocabulary()["numbers"].get(word.norm) if word.kind == "word" else None
+    number = int(word.norm) if word.kind == "number" and word.norm.isdecimal() else number
+    if number is None or number not in range(1, 13):
+        return
+    behind = words[start + 1] if start + 1 < len(words) else None
+    if behind is None or behind.kind in ("comma", "stop") or behind.norm in _behind_hours():
+        yield _edge("HOUR12", start, start + 1, float(number), word.norm)
+
+
+@cache
+def _behind_hours() -> frozenset[str]:
+    """Return the words that may stand behind an hour: those of times, and verbs with which a command begins."""
+    verbs = vocabulary()["verbs"]
+    commands = {phrase.split()[0] for kind in ("TAKE", "MEASURE", "GO", "VISIT") for phrase in verbs[kind]}
+    times = {phrase[0] for phrase in _entries()} - {
+        "o",
+        "h",
+        "of",
+        "the",
+        "a",
+        "an",
+        "one",
+        "second",
+        "other",
+        "past",
+    }
+    return frozenset(commands | times | _COMMANDS)
 
 
 def _edge(category: str, start: int, end: int, value: Any, text: str) -> PhraseEdge:

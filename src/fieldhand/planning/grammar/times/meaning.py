@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
+from typing import Literal
 
 from fieldhand.task.plan import Span
 from fieldhand.task.timing import DayTime, Schedule, StartTime, Timing, Weekday
@@ -27,6 +28,12 @@ class TimePart:
         choices: Times to choose from, where only a part of the day is named.
         not_before, done_by: Bounds of the time of day.
         first_day, last_day: Bounds of the days.
+        hour_at, hour_after, hour_before: Hours of the clock of 12 hours at which it begins, before which it does not,
+            and before which it is done; 0 if not said.
+        half: Half of the day of these hours, if the phrase says it.
+        needs_hour: True if it is no time without one of them ("this evening").
+        needs_day: True if it is no time without a day ("first thing").
+        times_a_day: Number of times of the day that must be said ("twice a day"); 0 if not said.
     """
 
     repeats: bool = False
@@ -41,6 +48,13 @@ class TimePart:
     done_by: DayTime | None = None
     first_day: str = ""
     last_day: str = ""
+    hour_at: float = 0.0
+    hour_after: float = 0.0
+    hour_before: float = 0.0
+    half: Literal["", "am", "pm"] = ""
+    needs_hour: bool = False
+    times_a_day: int = 0
+    needs_day: bool = False
 
     def __and__(self, other: TimePart) -> TimePart | None:
         """Return both parts together; None if they contradict each other."""
@@ -50,16 +64,80 @@ class TimePart:
             if mine and theirs and mine != theirs:
                 return None
             merged[field.name] = mine or theirs
-        return TimePart(**merged)  # type: ignore[arg-type]  # each value is that of its field
+        both = TimePart(**merged)  # type: ignore[arg-type]  # each value is that of its field
+        return None if both._is_in_other_half else both
+
+    @property
+    def _is_in_other_half(self) -> bool:
+        """True for "at 17:30 in the morning"."""
+        times = [at.clock for at in (*self.at, self.not_before) if at is not None and at.sun is None]
+        return bool(self.half) and any((clock < "12:00") != (self.half == "am") for clock in times)
 
     @property
     def asks(self) -> tuple[DayTime, ...]:
         """The times of day to choose from, if it says no time."""
-        if self.at or self.not_before or self.done_by or self.every_min:
+        if (hours := self._hours) and not (self.half or self._usual_half):
+            return (_clock(hours[0], "am"), _clock(hours[0], "pm"))
+        if hours or self.at or self.not_before or self.done_by or self.every_min:
             return ()
         if self.choices:
             return self.choices
         return _USUAL if self.repeats or self.weekdays or self.day not in ("", "today") else ()
+
+    @property
+    def _hours(self) -> tuple[float, ...]:
+        """The hours of the clock of 12 hours, in the order of the day."""
+        return tuple(hour for hour in (self.hour_at, self.hour_after, self.hour_before) if hour)
+
+    @property
+    def assumed_half(self) -> DayTime | None:
+        """The time that is assumed for the first hour of 12 if nothing says which half of the day it is in."""
+        hours = self._hours
+        return _clock(hours[0], self._usual_half) if hours and not self.half and self._usual_half else None
+
+    @property
+    def _usual_half(self) -> Literal["", "am", "pm"]:
+        """The half of the day of the first hour that is usual; that of a range from 6 to 8 on is the morning."""
+        hours = self._hours
+        if len(hours) > 1 and 6.0 <= hours[0] < 9.0:
+            return "am"
+        return _usual_half(hours[0]) if hours else ""
+
+    @property
+    def provisional(self) -> TimePart:
+        """The part with the first of the hours to choose from."""
+        return self.answered(self.asks[0]) if self._hours and self.asks else self
+
+    def answered(self, at: DayTime) -> TimePart:
+        """Return the part with the time that was chosen of those to choose from."""
+        if self._hours:
+            return replace(self, half="am" if at.clock < "12:00" else "pm")
+        return replace(self, at=(at,), choices=())
+
+    def _on_the_clock(self) -> TimePart | None:
+        """Return the part with times of the clock of 24 hours; None if it says a time twice, or none at all."""
+        hours = self._hours
+        if not hours:
+            return None if self.needs_hour and not (self.at or self.not_before or self.done_by) else self
+        half = self.half or self._usual_half
+        if (
+            not half
+            or (self.hour_at and self.at)
+            or (self.hour_after and self.not_before)
+            or (self.hour_before and self.done_by)
+        ):
+            return None
+        first = _clock(hours[0], half)
+        last = _clock(hours[-1], half)
+        if len(hours) > 1 and last.clock <= first.clock:
+            last = _clock(hours[-1], "pm" if half == "am" else "am")
+        return replace(
+            self,
+            at=(first,) if self.hour_at else self.at,
+            not_before=first if self.hour_after else self.not_before,
+            done_by=last if self.hour_before else self.done_by,
+            hour_at=0.0, hour_after=0.0, hour_before=0.0, choices=(),
+        )  # fmt: skip
 
     def timing(self, said: tuple[Span, ...], zone: str) -> Timing | None:
         """Return the timing; None if it is none that a Task can hold.
@@ -77,6 +155,12 @@ class TimePart:
 
     def _resolved(self) -> TimePart | None:
         """Return the part with a day of the week as a single day, or as days of a standing mission."""
+        timed = self._on_the_clock()
+        return None if timed is None else timed._on_days()
+
+    def _on_days(self) -> TimePart | None:
+        if self.times_a_day not in (0, len(self.at)) or (self.needs_day and not (self.day or self.weekdays)):
+            return None
         if not self.repeats and self.weekdays:
             if len(self.weekdays) > 1:
                 return replace(self, repeats=True)
@@ -119,6 +203,19 @@ class TimePart:
 
 #: Times to choose from where a day or a repetition names none.
 _USUAL = (DayTime(clock="06:00"), DayTime(clock="08:00"), DayTime(clock="12:00"), DayTime(sun="sunrise"))
+
+
+def _usual_half(hour: float) -> Literal["", "am", "pm"]:
+    """Return the half of the day in which people work at an hour of 12; empty if they may in both."""
+    if hour >= 12.0 or hour < 6.0:
+        return "pm"
+    return "am" if hour >= 9.0 else ""
+
+
+def _clock(hour: float, half: str) -> DayTime:
+    """Return an hour of the clock of 12 hours, such as 9.5, as a time of the day."""
+    minutes = round((hour % 12) * 60) + (720 if half == "pm" else 0)
+    return DayTime(clock=f"{minutes // 60:02d}:{minutes % 60:02d}")
 
 
 def _later(at: DayTime, minutes: int) -> DayTime:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from fieldhand.language import message
 from fieldhand.planning.english.tokens import Word
+from fieldhand.planning.english.vocabulary import vocabulary
 from fieldhand.planning.grammar.chart import Chart, PhraseEdge
 from fieldhand.planning.grammar.times.constructions import GRAMMAR
 from fieldhand.planning.grammar.times.lexicon import time_edges
@@ -67,6 +68,8 @@ def without_times(words: Sequence[Word], earlier: frozenset[int] = frozenset()) 
         part = None if part is None else part & phrase.meaning
     if part is None or not phrases:
         return None
+    if part.every_min and not part.last_day and _says_how_often(words):
+        return None  # "every ten minutes, six times" is one mission
     taken = frozenset(token for phrase in phrases for token in range(phrase.start, phrase.end))
     single = not part.repeats and len(part.weekdays) < 2
     if single and not all(_is_of_beginning(one, words, taken) for one in phrases):
@@ -80,6 +83,16 @@ def without_times(words: Sequence[Word], earlier: frozenset[int] = frozenset()) 
     )
 
 
+def _says_how_often(words: Sequence[Word]) -> bool:
+    """Return True if words say how often something is done: "six times", "twice"."""
+    texts = [word.norm for word in words]
+    counts = {"twice", "thrice"} & {*texts}
+    return bool(counts) or any(
+        texts[k + 1] == "times" and (texts[k] in vocabulary()["numbers"] or texts[k].isdecimal())
+        for k in range(len(texts) - 1)
+    )
+
+
 def asked_time(part: TimePart) -> tuple[str, tuple[str, ...]] | None:
     """Return the question for the time of day and its choices; None if it is said."""
     times = part.asks
@@ -87,6 +100,14 @@ def asked_time(part: TimePart) -> tuple[str, tuple[str, ...]] | None:
         return None
     choices = tuple(message("at {time}", time=say_day_time(at)) for at in times)
     return message("At what time of the day?", context="question"), choices
+
+
+def assumed_times(part: TimePart) -> tuple[str, ...]:
+    """Return what is assumed of an hour of which nothing says whether it is in the morning or later, as sentences."""
+    at = part.assumed_half
+    if at is None:
+        return ()
+    return (message("The hour is taken as {time}.", context="assumption", time=say_day_time(at)),)
 
 
 def with_answer(part: TimePart, answers: Sequence[Answer]) -> tuple[TimePart, Answer] | None:
@@ -99,12 +120,11 @@ def with_answer(part: TimePart, answers: Sequence[Answer]) -> tuple[TimePart, An
         if answer.question != question:
             continue
         if answer.answer in choices:
-            at = part.asks[choices.index(answer.answer)]
-            return replace(part, at=(at,), choices=()), answer
+            return part.answered(part.asks[choices.index(answer.answer)]), answer
         from fieldhand.planning.english.tokens import words_of
 
         given = list(_phrases(words_of(answer.answer)))
-        joined = replace(part, choices=()) & given[0].meaning if len(given) == 1 else None
+        joined = replace(part, choices=(), half="") & given[0].meaning if len(given) == 1 else None
         if joined is not None and not joined.asks:
             return joined, answer
     return None
@@ -161,7 +181,8 @@ def _marks_of(phrase: PhraseEdge, words: Sequence[Word]) -> Iterator[int]:
     """Yield the commas, and the end of a sentence, that only set a time apart."""
     first = phrase.start == 0 or words[phrase.start - 1].kind == "stop"
     last = phrase.end == len(words) or words[phrase.end].kind == "stop"
-    if first and phrase.end < len(words) and words[phrase.end].kind in ("comma", "stop"):
+    joined = first and phrase.end < len(words) and words[phrase.end].norm == "and"  # "start at 6 am and ..."
+    if joined or (first and phrase.end < len(words) and words[phrase.end].kind in ("comma", "stop")):
         yield phrase.end
     if not first and words[phrase.start - 1].kind == "comma" and (last or words[phrase.end].kind == "comma"):
         yield phrase.start - 1

@@ -1,0 +1,129 @@
+"""Constructions of questions about an area that readings answer: "how wet is the meadow? Twelve spots should do."."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.english.naming import Naming
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.commands.parameters import with_parameter
+from fieldhand.planning.grammar.meaning import (
+    LAST_THING,
+    UNSAID_THING,
+    CaptureCommand,
+    ParameterValue,
+    PlaceMeaning,
+    Thing,
+)
+from fieldhand.planning.grammar.places.sampling import bare_ground
+from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import are_rows, is_one_row
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+
+@dataclass(frozen=True, slots=True)
+class AskedArea:
+    """Questions about an area, and the captures that answer them."""
+
+    things: tuple[Thing, ...]
+    where: s.Selector
+
+
+@dataclass(frozen=True, slots=True)
+class Spots:
+    """So many places spread over an area.
+
+    Attributes:
+        count: Number of places.
+        how: Parameter of the captures.
+    """
+
+    count: int
+    how: ParameterValue | None = None
+
+
+@construction(
+    "asked: noun=ASKHOW IS where=region [ONAVERAGE]",
+    "asked: noun=ASKHOW IS [DET] GROUND in_ where=region [ONAVERAGE]",
+    "asked: noun=ASKHOW IS IT in_ where=region [ONAVERAGE]",
+    cost=0.2,
+)
+def how_wet_is(noun: Lex, where: s.Selector) -> AskedArea | None:
+    """Compose "how wet is the meadow on average"."""
+    naming: Naming = noun.value
+    return AskedArea((Thing(naming.actions[0]),), where) if naming.actions else None
+
+
+@construction(
+    "asked: [MEASURE] [DET] AVERAGEWORD things=things in_ where=region",
+    "asked: [MEASURE] [DET] AVERAGEWORD things=things OF where=region",
+    "asked: MEASURE things=things in_ where=region ONAVERAGE",
+    "asked: HOWMUCH things=things THEREIS in_ where=region",
+    "asked: HOWMUCH things=things IS in_ where=region",
+    "asked: WHATIS [DET] [AVERAGEWORD] things=things IS in_ where=region",
+    cost=0.2,
+)
+def what_is_the_mean(things: tuple[Thing, ...], where: s.Selector) -> AskedArea | None:
+    """Compose "what is the average soil moisture in the slope"."""
+    return AskedArea(things, where) if all(one.count in (None, 1) for one in things) else None
+
+
+@construction(
+    "spots: [TAKE] n=count POINT", "spots: [TAKE] n=count TREE", "spots: [TAKE] n=count READING",
+    "spots: [MEASURE] [AT] n=count POINT", "spots: [MEASURE] [AT] n=count TREE",
+    "spots: [TAKE] n=count READING AT n2=count POINT",
+    cost=0.1,
+)  # fmt: skip
+def so_many_spots(n: int, n2: int | None = None) -> Spots | None:
+    """Compose "twelve spots"."""
+    return Spots(n) if n2 in (None, n) and n > 1 else None
+
+
+@construction("spots: [TAKE] things=things", cost=0.3)
+def so_many_readings(things: tuple[Thing, ...]) -> Spots | None:
+    """Compose "twelve readings"."""
+    known = len(things) == 1 and things[0].action in (LAST_THING, UNSAID_THING) and not things[0].parameters
+    return Spots(things[0].count) if known and things[0].count is not None and things[0].count > 1 else None
+
+
+@construction(
+    "spots: one=spots [COMMA] EVENLYSPACED", "spots: one=spots [COMMA] SPREADHERE",
+    "spots: one=spots [COMMA] how=parameter", "spots: one=spots [COMMA] [AND] REMAINS",
+    "spots: one=spots [COMMA] TELLSUS",
+    cost=0.1,
+)  # fmt: skip
+def spots_that(one: Spots, how: ParameterValue | None = None) -> Spots | None:
+    """Compose "twelve spots spread out evenly, 10 cm deep, should tell us"."""
+    if how is None:
+        return one
+    return Spots(one.count, how) if one.how is None else None
+
+
+@construction(
+    "capture: asked=asked FULLSTOP spots=spots", "capture: asked=asked COMMA spots=spots", cost=0.3,
+    given=("site", "robot"),
+)  # fmt: skip
+def spots_tell(asked: AskedArea, spots: Spots, used: int, site: Site, robot: RobotProfile) -> CaptureCommand | None:
+    """Compose "how wet is the meadow on average? Twelve spots spread out evenly should tell us."."""
+    things = asked.things
+    if spots.how is not None:
+        made = tuple(with_parameter(one, spots.how, robot) for one in things)
+        things = tuple(one for one in made if one is not None)
+        if len(things) < len(made):
+            return None
+    where, count = asked.where, spots.count
+    ground = bare_ground(where, site)
+    if ground is not None:
+        selector: s.Selector = s.PointsIn(zone=ground.zone, count=count)
+        if ground.left_out:
+            return None
+    elif are_rows(where) and is_one_row(where):
+        selector = s.Evenly(count=count, of=where)
+    else:
+        selector = s.Spread(count=count, of=where)
+    return CaptureCommand(things, PlaceMeaning(selector, "several", count=count), used)

@@ -1,0 +1,192 @@
+"""Constructions of laps, of rests between them, and of captures with a time between them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.commands.clauses import Adjunct
+from fieldhand.planning.grammar.commands.waits import LONGEST_WAIT_S
+from fieldhand.planning.grammar.commands.working import Tract
+from fieldhand.planning.grammar.meaning import Amount, CaptureCommand, Thing, WorkCommand, wait_thing
+from fieldhand.planning.grammar.places.areas import edges
+from fieldhand.planning.grammar.places.sampling import bare_zone, is_keep_out
+from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import are_rows
+from fieldhand.site.model import Site
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+#: Maximum number of laps, and of captures with a rest between them.
+_MOST_LAPS, _MOST_RESTED = 100, 50
+
+
+# --- laps -------------------------------------------------------------------------------------------------------------
+
+
+@construction("laps: n=count ROUND", "laps: [DET] noun=ROUND", cost=0.1)
+def laps(n: int = 1, noun: Lex | None = None) -> int | None:
+    """Compose "two laps" and "a lap"."""
+    return None if noun is not None and noun.plural else n
+
+
+@construction("lapped: OF line=edge_line", "lapped: OF where=region", "lapped: OF site", "lapped: edge=edge", cost=0.1)
+def lapped(
+    line: s.Selector | None = None, where: s.Selector | None = None, edge: Tract | None = None
+) -> s.Selector | None:
+    """Compose "of the boundary" and "around the pond" behind "two laps"."""
+    if where is not None and (are_rows(where) or where == edges()):
+        return None
+    return edge.selector if edge is not None else line or where or s.Trees()
+
+
+@construction("edge: AROUND ALONG line=edge_line", cost=0.1)
+def round_along(line: s.Selector) -> Tract:
+    """Compose "round along the boundary"."""
+    return Tract(line, "perimeter")
+
+
+@construction("edge: ALONG fence=region", "edge: AROUND ALONG fence=region", cost=0.2, given=("site",))
+def along_fence(fence: s.Selector, site: Site) -> Tract | None:
+    """Compose "along the deer fence"."""
+    return Tract(fence, "perimeter") if is_keep_out(fence, site) else None
+
+
+@construction("work: [TAKE] times=laps where=lapped", "work: GO [FOR] times=laps where=lapped", cost=0.2)
+def so_many_laps(times: int, where: s.Selector, used: int) -> WorkCommand | None:
+    """Compose "do two laps of the boundary" and "three laps around the pond"."""
+    return _driven(where, times, used)
+
+
+@construction("work: verb=GO times=often where=edge", "work: GO times=often [COMMA] where=edge", cost=0.1)
+def often_around(times: int, where: Tract, used: int, verb: Lex | None = None) -> WorkCommand | None:
+    """Compose "drive twice around the pond"."""
+    del verb
+    return _driven(where.selector, times, used)
+
+
+@construction("work: times=often AROUND line=edge_line", "work: times=often AROUND where=region", cost=0.3)
+@construction("work: times=often AROUND site", "work: times=often AROUND ALONG line=edge_line", cost=0.3)
+def once_around(
+    times: int, used: int, line: s.Selector | None = None, where: s.Selector | None = None
+) -> WorkCommand | None:
+    """Compose "once round the orchard", without a verb."""
+    if where is not None and are_rows(where):
+        return None
+    return _driven(line or where or s.Trees(), times, used)
+
+
+def _driven(where: s.Selector, times: int, used: int) -> WorkCommand | None:
+    """Return a drive around an area."""
+    if not 1 <= times <= _MOST_LAPS:
+        return None
+    return WorkCommand(action="", along=where, mode="perimeter", used=used, laps=times)
+
+
+@construction("work: one=work [COMMA] times=often", cost=0.1)
+def worked_so_often(one: WorkCommand, times: int, used: int) -> WorkCommand | None:
+    """Compose "patrol the boundary five times"."""
+    if one.laps != 1 or not 1 <= times <= _MOST_LAPS or one.along is None:
+        return None
+    return replace(one, laps=times, used=used)
+
+
+# --- rests ------------------------------------------------------------------------------------------------------------
+
+
+@construction(
+    "between_them: BETWEEN [DET] [EACH] ROUND",
+    "between_them: BETWEEN [DET] READING",
+    "between_them: BETWEEN EACH [ONE]",
+    "between_them: INBETWEEN [EACH]",
+    "between_them: APARTEACH",
+    cost=0.1,
+)
+def between_them() -> str:
+    """Compose "between rounds" and "in between"."""
+    return "between"
+
+
+@construction(
+    "rest: [WITH] time=wait [COMMA] between_them",
+    "rest: [WITH] [DET] time=wait between_them",
+    "rest: between_them [COMMA] time=wait",
+    "rest: [WITH] time=amount between_them",
+    cost=0.1,
+)
+def rest(time: float | Amount) -> float | None:
+    """Compose "with a ten-minute rest between rounds"."""
+    if isinstance(time, float):
+        return time
+    return time.number if time.unit == "seconds" and 0.0 < time.number <= LONGEST_WAIT_S else None
+
+
+@construction(
+    "rest: [AT] far=amount APART", "rest: AT far=amount INTERVAL", "rest: [AT] [DET] INTERVAL OF far=amount", cost=0.1
+)
+@construction(
+    "rest: AT [DET] far=amount [DASH] INTERVAL",
+    "rest: EACH far=amount",
+    "rest: WITH far=amount BETWEEN [DET] READING",
+    cost=0.1,
+)
+def time_apart(far: Amount) -> float | None:
+    """Compose "ten minutes apart" and "at ten-minute intervals"."""
+    return rest(far)
+
+
+@construction(
+    "work: one=work [COMMA] [and_or_but] time=rest",
+    "work: one=work FULLSTOP time=rest",
+    cost=0.1,
+)
+def rests_between_laps(one: WorkCommand, time: float, used: int) -> WorkCommand | None:
+    """Compose "patrol the boundary three times, with a ten-minute rest between rounds"."""
+    return replace(one, rest_s=time, used=used) if one.laps > 1 and not one.rest_s and not one.optional else None
+
+
+@construction(
+    "work: one=work [COMMA] [WITH] time=wait AFTEREACH",
+    "work: one=work [COMMA] [and_or_but] time=wait AFTEREACH",
+    cost=0.1,
+)
+def rests_after_each_lap(one: WorkCommand, time: float, used: int) -> WorkCommand | None:
+    """Compose "patrol the boundary three times with a ten-minute rest after each"."""
+    made = rests_between_laps(one, time, used)
+    return None if made is None else replace(made, rests_last=True)
+
+
+@dataclass(frozen=True, slots=True)
+class _Rest:
+    """A wait between captures, on a site."""
+
+    seconds: float
+    site: Site = field(compare=False)
+
+
+def _rested(command: CaptureCommand, rest: _Rest) -> CaptureCommand | None:
+    """Return captures at one place, or at each of several, with a wait between one and the next."""
+    counts = {one.count for one in command.things}
+    place = command.place
+    if command.spacing is not None or len(command.things) != 1:
+        return None
+    count = next(iter(counts)) or 1
+    times = command.times if count == 1 else count if command.times == 1 else 0
+    if not 2 <= times <= _MOST_RESTED:
+        return None
+    single = place is None or place.shape == "one" or bool(bare_zone(place.selector, rest.site))
+    if place is not None and not single and not (place.shape == "several" and place.each):
+        return None
+    once = replace(command.things[0], count=1)
+    made: list[Thing] = [once]
+    for _ in range(times - 1):
+        made += [wait_thing(rest.seconds), once]
+    return replace(command, things=tuple(made), times=1)
+
+
+@construction("adjunct: [and_or_but] time=rest", cost=0.2, given=("site",))
+def rests_between_captures(time: float, site: Site) -> Adjunct:
+    """Compose "three times, ten minutes apart"."""
+    return Adjunct(_rested, _Rest(time, site), late=True)

@@ -1,0 +1,77 @@
+"""Constructions that ask for work along paths in other ways: "row 4 needs spraying", "give the meadow a mow"."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.commands.parameters import with_parameter
+from fieldhand.planning.grammar.commands.working import Tract, work
+from fieldhand.planning.grammar.meaning import Amount, ParameterValue, Thing, WorkCommand
+from fieldhand.planning.grammar.words import Lex
+from fieldhand.robot.implement import rate_unit
+from fieldhand.robot.model import RobotProfile
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+
+@construction("work_name: verb=WORKV", "work_name: verb=WORKN", cost=0.0)
+def work_name(verb: Lex) -> Lex:
+    """Compose "spraying" and "mower" as what something needs."""
+    return verb
+
+
+@construction(
+    "work: where=tract SHOULD [DET] verb=work_name",
+    "work: where=tract MUST IS [DET] verb=work_name",
+    "work: verb=work_name SHOULD where=tract",
+    "work: CAUSE where=tract [TOBE] verb=WORKV",
+    "work: CAUSE [DET] verb=work_name TAKE where=tract",
+    "work: GIVES where=tract [DET] verb=work_name",
+    "work: GIVES where=tract DET THOROUGH verb=work_name",
+    "work: where=tract SHOULD DET THOROUGH verb=work_name",
+    "work: GIVES DET verb=work_name [AT] where=tract",
+    "work: USE [DET] verb=WORKN OVER where=tract",
+    "work: TAKE [DET] verb=WORKN OVER where=tract",
+    "work: TAKE [DET] verb=WORKN where=tract",
+    "work: TAKE [DET] verb=WORKV where=tract",
+    "work: GO OVER where=tract WITH [DET] verb=WORKN",
+    "work: GO [INORDERTO] verb=WORKV where=tract",
+    "work: GO AND verb=WORKV where=tract",
+    cost=0.1,
+    given=("robot",),
+)
+def wanted_work(verb: Lex, where: Tract, used: int, robot: RobotProfile) -> list[WorkCommand] | None:
+    """Compose "row 4 needs spraying", "give row 4 a spray" and "run the mower over the meadow"."""
+    return work(verb, used, robot, where)
+
+
+@construction(
+    "work_rate: [AT] amount=amount",
+    "work_rate: WITH amount=amount",
+    "work_rate: USE amount=amount",
+    "work_rate: OF amount=amount",
+    "work_rate: AT [DET] RATEWORD OF amount=amount",
+    "work_rate: [WITH] [DET] RATEWORD [COMMA] [OF] amount=amount",
+    "work_rate: [DET] RATEWORD IS amount=amount",
+    cost=0.1,
+)
+def work_rate(amount: Amount) -> Amount | None:
+    """Compose "at a rate of 250 l/ha"."""
+    return amount if rate_unit(amount.unit) is not None else None
+
+
+@construction(
+    "work: one=work [COMMA] rate=work_rate",
+    "work: one=work FULLSTOP rate=work_rate",
+    "work: rate=work_rate [COMMA] one=work",
+    cost=0.1,
+    given=("robot",),
+)
+def work_at_rate(one: WorkCommand, rate: Amount, used: int, robot: RobotProfile) -> WorkCommand | None:
+    """Compose "spray rows 3 to 8, 250 l/ha", wherever the rate stands."""
+    if one.parameters or not one.action:
+        return None
+    made = with_parameter(Thing(one.action), ParameterValue(rate.number, rate.unit, ()), robot)
+    return None if made is None else replace(one, parameters=made.parameters, used=used)

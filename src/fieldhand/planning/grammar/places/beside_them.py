@@ -1,0 +1,60 @@
+"""Constructions of the neighbours of several plants: "and of the plants on either side of them"."""
+
+from __future__ import annotations
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import PlaceMeaning
+from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.words import Lex
+from fieldhand.site.model import Site
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+#: Maximum number of plants whose neighbours are named one by one.
+_MOST = 40
+
+
+@construction(
+    "beside_them: [DET] noun=TREE EACHSIDE THERE",
+    "beside_them: [DET] noun=TREE EACHSIDE OF IT",
+    "beside_them: [DET] noun=TREE EACHSIDE OF EACH [ONE]",
+    "beside_them: [DET] noun=TREE EACHSIDE OF DET",
+    "beside_them: [DET] noun=NEIGHBOUR EACHSIDE",
+    "beside_them: [DET] noun=NEIGHBOUR EACHSIDE THERE",
+    "beside_them: [DET] noun=ONE EACHSIDE THERE",
+    "beside_them: [DET] noun=ONE EACHSIDE OF EACH",
+    "beside_them: THEIR noun=NEIGHBOUR",
+    cost=0.1,
+)
+def beside_them(noun: Lex) -> str | None:
+    """Compose "the plants on either side of them"."""
+    return "beside" if noun.plural or "plural" in noun.features or noun.text == "one" else None
+
+
+@construction(
+    "place: whole=place [COMMA] AND beside_them", "place: whole=place AND OF beside_them",
+    "place: whole=place AND AT beside_them", "place: whole=place TOGETHERWITH beside_them",
+    cost=0.1, given=("site",),
+)  # fmt: skip
+def with_those_beside(whole: PlaceMeaning, site: Site) -> PlaceMeaning | None:
+    """Compose "the cucumbers with mildew and the plants on either side of them", each of them once."""
+    if whole.shape != "several" or whole.per is not None or whole.optional or whole.at_most is not None:
+        return None
+    plants = ids_of(whole.selector, site)
+    if not plants or len(plants) > _MOST or not plants <= set(site.by_id):
+        return None
+    beside = [name for name in _next_in_row(plants, site) if name not in plants]
+    parts = tuple(s.TreeIs(tree=name) for name in beside)
+    return PlaceMeaning(s.UnionOf(parts=(*whole.selector.members, *parts)), "several") if parts else None
+
+
+def _next_in_row(plants: set[str], site: Site) -> list[str]:
+    """Return the ids of the plants next to others in their rows, in the order of the rows."""
+    found: list[str] = []
+    for row in site.planting.rows:
+        names = [site.trees[tree].place.id for tree in row.trees]
+        near = {k + step for k, name in enumerate(names) if name in plants for step in (-1, 1)}
+        found += [names[k] for k in sorted(near) if 0 <= k < len(names)]
+    return found

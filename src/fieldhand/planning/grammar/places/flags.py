@@ -1,0 +1,73 @@
+"""Constructions of what is true or false of each plant: "grafted tomatoes", "cucumbers with mildew", "covered ones"."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import Likewise, Nominal, PlaceMeaning
+from fieldhand.planning.grammar.places.clauses import Clause, Trait
+from fieldhand.planning.grammar.places.nouns import AttributeTest, that_pass
+from fieldhand.planning.grammar.words import Lex
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+
+@construction("attribute_test: flag=FLAG", cost=0.4)
+def is_so(flag: Lex) -> list[AttributeTest]:
+    """Compose "grafted" behind a noun."""
+    return [(name, "eq", value) for name, value in flag.value]
+
+
+def is_not_so(flag: Lex) -> list[AttributeTest]:
+    """Return the tests of "not grafted"."""
+    return [(name, "eq", not value) for name, value in flag.value]
+
+
+@construction("nominal: flag=FLAG inner=nominal", "owner: flag=FLAG inner=owner", cost=0.2)
+def such(flag: Lex, inner: Nominal) -> list[Nominal] | None:
+    """Compose "grafted tomatoes"."""
+    if inner.single or inner.complete or inner.pronoun or inner.tested:
+        return None
+    return [replace(inner, selector=that_pass(test, inner.selector)) for test in is_so(flag)]
+
+
+@construction("nominal: flag=FLAG", cost=1.6)
+def such_ones(flag: Lex) -> list[Nominal]:
+    """Compose "two grafted" of "two grafted and two ungrafted plants"."""
+    return [Nominal(that_pass(test, s.Trees()), plural=True, unmarked=True) for test in is_so(flag)]
+
+
+@construction("nominal: NON [DASH] flag=FLAG inner=nominal", "nominal: NOT [DASH] flag=FLAG inner=nominal", cost=0.2)
+def not_such(flag: Lex, inner: Nominal) -> list[Nominal] | None:
+    """Compose "non-grafted tomatoes"."""
+    if inner.single or inner.complete or inner.pronoun or inner.tested:
+        return None
+    return [replace(inner, selector=that_pass(test, inner.selector)) for test in is_not_so(flag)]
+
+
+@construction("relative: WITH flag=FLAG", "relative: [which_is] SHOWING flag=FLAG", cost=0.1)
+def with_it(flag: Lex) -> list[Clause]:
+    """Compose "with mildew" and "that show mildew"."""
+    return [(Trait(test),) for test in is_so(flag)]
+
+
+@construction("relative: word=WITHOUT flag=FLAG", "relative: [which_is] LACKS flag=FLAG", cost=0.1)
+def without_it(flag: Lex, word: Lex | None = None) -> list[Clause] | None:
+    """Compose "without mildew" and "free of mildew"."""
+    if word is not None and "leaves_out" not in word.features:
+        return None
+    return [(Trait(test, denied=True),) for test in is_not_so(flag)]
+
+
+@construction("place: [DET] flag=FLAG noun=ONE", "place: each=EACH flag=FLAG noun=ONE", cost=0.4)
+def those_that_are_so(flag: Lex, noun: Lex, each: Lex | None = None) -> list[PlaceMeaning] | None:
+    """Compose "the grafted ones" and "every grafted one", of plants or rows that were named before."""
+    if each is None and not noun.plural and "plural" not in noun.features:
+        return None
+    return [
+        PlaceMeaning(s.Where(attribute=name, test="eq", value=value), "several", like=Likewise("value"))
+        for name, value in flag.value
+    ]
