@@ -31,7 +31,7 @@ from fieldhand.site.drives import Drives
 from fieldhand.site.gaps import empty_positions
 from fieldhand.site.loader import open_site
 from fieldhand.site.model import Place, Site, Zone
-from support.sites.fields import pasture
+from support.sites.gardens import pasture
 from support.sites.points import at_start, planted, site_of, without_rows
 
 VINEYARD = open_site("vineyard")

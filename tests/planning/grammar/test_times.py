@@ -13,8 +13,6 @@ from fieldhand.site.loader import open_site
 from planning.english.outlines import outline, timing
 
 PLANNER = EnglishPlanner()
-FRIDAY_AFTERNOON = "day=fri not_before=14:00 done_by=17:00"
-TOMORROW_MORNING = "day=tomorrow not_before=06:30 not_after=06:45"
 DEMO, HUSKY = open_site("demo"), load_robot("husky")
 
 #: Times, and what they say where they stand in a request.
@@ -175,8 +173,14 @@ def test_other_numbers_are_no_times(request_: str) -> None:
         ("Measure CO2 at tree 4 tonight at eleven.", "day=today not_before=23:00 not_after=23:15"),
         ("Tomorrow morning, no earlier than seven, measure CO2 at tree 4.", "day=tomorrow not_before=07:00"),
         ("Measure CO2 at tree 4 before nine tomorrow.", "day=tomorrow done_by=09:00"),
-        ("Read CO2 at tree 4 on Friday between two and five in the afternoon.", FRIDAY_AFTERNOON),
-        ("Start at half past six tomorrow morning and measure CO2 at tree 4.", TOMORROW_MORNING),
+        (
+            "Measure CO2 at tree 4 on Friday between two and five in the afternoon.",
+            "day=fri not_before=14:00 done_by=17:00",
+        ),
+        (
+            "Start at half past six tomorrow morning and measure CO2 at tree 4.",
+            "day=tomorrow not_before=06:30 not_after=06:45",
+        ),
         ("Wait until eight this evening, then measure CO2 at tree 4.", "day=today not_before=20:00"),
         ("As soon as the sun is up, measure CO2 at tree 4.", "not_before=sunrise not_after=sunrise+15"),
         ("Once it gets dark, measure CO2 at tree 4.", "not_before=dusk not_after=dusk+15"),

@@ -9,7 +9,7 @@ from fieldhand.planning.planner import Clarify, Planned, Refused
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.loader import open_site
 from planning.english.outlines import outline
-from support.sites.fields import pasture
+from support.sites.gardens import pasture
 
 PLANNER = EnglishPlanner()
 CORNER = "mow area InZone(wet corner)"

@@ -22,7 +22,7 @@ from fieldhand.site.working.units import RowWork, WorkUnit, row_units
 from fieldhand.task.plan import InOrder, WorkAlong
 from support.missions.rig import orchard, task_for
 from support.missions.working import tractor
-from support.sites.fields import pasture
+from support.sites.gardens import pasture
 
 
 def bearings_of(units) -> list[float]:

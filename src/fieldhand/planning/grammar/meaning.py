@@ -748,6 +748,7 @@ class Connective:
         bare: True if it is only a comma.
         purpose: True for "to" before what is done at the place.
         precedes: True for "before".
+        in_turn: True for "then" that adds another place ("row 3, then row 4").
     """
 
     full: bool
@@ -761,6 +762,7 @@ class Connective:
     bare: bool = False
     purpose: bool = False
     precedes: bool = False
+    in_turn: bool = False
 
 
 #: Conditions that are checked throughout the mission.

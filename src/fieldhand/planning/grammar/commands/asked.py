@@ -28,7 +28,7 @@ construction = GRAMMAR.construction
 
 @dataclass(frozen=True, slots=True)
 class AskedArea:
-    """Questions about an area, and the captures that answer them."""
+    """A question about an area, and the captures that answer it."""
 
     things: tuple[Thing, ...]
     where: s.Selector

@@ -118,7 +118,7 @@ def joint(used: int, after: str = "", both: Lex | None = None) -> Connective | N
     contrasts = both is not None and "contrast" in both.features
     if after == "from here":
         return None
-    return Connective(False, False, used, both=both is not None, contrasts=contrasts, bare=bare)
+    return Connective(False, False, used, both=both is not None, contrasts=contrasts, bare=bare, in_turn=bool(after))
 
 
 @construction("joint: [before=COMMA] [both=and_or_but] then=then [COMMA]", cost=0.1)

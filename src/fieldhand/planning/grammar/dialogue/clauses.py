@@ -266,6 +266,7 @@ def _read(
         command = replace(command, used=command.used | joint.used)  # "afterwards go home"
     elif joint is not None and (joint.then or joint.both):
         state = with_joints(state, setting.spans_of(joint.used))
+    state = replace(state, sequenced=state.sequenced or (joint is not None and (joint.then or joint.in_turn)))
     match command:
         case CaptureCommand():
             if all(wait_seconds(thing.action) is not None for thing in command.things):

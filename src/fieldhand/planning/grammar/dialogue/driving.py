@@ -293,7 +293,7 @@ def _may_change_places(state: DialogueState) -> bool:
     """Return True for several captures, each at a place of its own, of which none depends on another."""
     steps = state.plan.steps
     alone = all(step.act is not None and step.selector is not None and not step.selector.relative for step in steps)
-    return alone and len(steps) > 1 and not state.scope and not state.awaits_command
+    return alone and len(steps) > 1 and not state.scope and not state.awaits_command and not state.sequenced
 
 
 def with_order_kept(setting: Setting, state: DialogueState) -> DialogueState:

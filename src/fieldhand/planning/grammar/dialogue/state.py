@@ -144,6 +144,7 @@ class DialogueState:
         runs_on: True if the last "otherwise" stands in a text without a mark that shows where its case ends.
         watches: Conditions that are checked throughout the mission.
         after_watch: True if the last clause said how long the robot waits in one of them.
+        sequenced: True if a connective says that one command follows another ("then").
     """
 
     plan: p.InOrder = EMPTY
@@ -185,6 +186,7 @@ class DialogueState:
     speed: SaidPace | None = None
     watches: tuple[Watch, ...] = ()
     after_watch: bool = False
+    sequenced: bool = False
 
     @property
     def block(self) -> p.InOrder:
