@@ -18,6 +18,7 @@ from fieldhand.planning.llm.review import AnswerProblem, read_draft, review
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot, robot_names
+from fieldhand.site.loader import open_site
 from fieldhand.site.model import Site
 from fieldhand.task.codec import TaskDraft
 from fieldhand.testing.scripted_chat import ScriptedChat, planner_of
@@ -86,6 +87,14 @@ def test_what_a_model_needs_of_site_and_robot_is_there() -> None:
         assert action.name in text
     for quantity in robot.quantities:
         assert f"{quantity.name} in {quantity.unit}" in text
+
+
+@pytest.mark.parametrize("robot", robot_names())
+def test_every_name_of_the_built_in_vineyard_has_room(robot: str) -> None:
+    text = opening(REQUEST, open_site("vineyard"), load_robot(robot))[1].text
+    for name in ("Block North", "Block South", "Merlot", "Syrah", "Cabernet Sauvignon", "pond", "meadow gate", "barn"):
+        assert name in text
+    assert tokens(text) + tokens(instructions()) <= MAX_TOKENS
 
 
 def test_names_of_markers_and_values_that_only_one_block_has_are_there() -> None:

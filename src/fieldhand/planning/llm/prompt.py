@@ -34,8 +34,8 @@ from fieldhand.task.plan import Node
 MOST_DATA = 4_000
 LONGEST_LINE = 400
 #: Maximum number of tokens of the first two messages without the request; the site gets the remainder, within bounds.
-MOST_TOKENS = 9_500
-SITE_TOKENS = (250, 800)
+MOST_TOKENS = 10_400
+SITE_TOKENS = (450, 800)
 #: Maximum number of synonyms shown for an action or quantity.
 MOST_SYNONYMS = 5
 
