@@ -41,10 +41,12 @@ if TYPE_CHECKING:
         review,
         simulate,
     )
+    from fieldhand.missions.earlier_missions import earlier_missions
     from fieldhand.orienteering.policy import Policy
     from fieldhand.places import selectors
     from fieldhand.planning.planner import Answer, Clarify, Planned, Planner, Refused
     from fieldhand.robot.model import RobotProfile as Robot
+    from fieldhand.site.earlier_missions import EarlierMissions
     from fieldhand.site.model import Site
     from fieldhand.task import plan as steps
     from fieldhand.task.frames import Task
@@ -55,6 +57,7 @@ _PUBLIC = {
     "ApprovedMission": ("fieldhand.mission", "ApprovedMission"),
     "Assessment": ("fieldhand.mission", "Assessment"),
     "Clarify": ("fieldhand.planning.planner", "Clarify"),
+    "EarlierMissions": ("fieldhand.site.earlier_missions", "EarlierMissions"),
     "FieldhandError": ("fieldhand.errors", "FieldhandError"),
     "Plan": ("fieldhand.mission", "Plan"),
     "Planned": ("fieldhand.planning.planner", "Planned"),
@@ -73,6 +76,7 @@ _PUBLIC = {
     "authorize": ("fieldhand.mission", "authorize"),
     "build_task": ("fieldhand.mission", "build_task"),
     "carry_out": ("fieldhand.mission", "carry_out"),
+    "earlier_missions": ("fieldhand.missions.earlier_missions", "earlier_missions"),
     "fly_many": ("fieldhand.mission", "fly_many"),
     "plan": ("fieldhand.mission", "plan"),
     "review": ("fieldhand.mission", "review"),
@@ -86,6 +90,7 @@ __all__ = [
     "ApprovedMission",
     "Assessment",
     "Clarify",
+    "EarlierMissions",
     "FieldhandError",
     "Plan",
     "Planned",
@@ -104,6 +109,7 @@ __all__ = [
     "authorize",
     "build_task",
     "carry_out",
+    "earlier_missions",
     "fly_many",
     "plan",
     "review",

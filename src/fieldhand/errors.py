@@ -11,6 +11,7 @@
     │   ├── BundleError             mission bundle: container, signature, manifest, or content
     │   ├── KeyFileError            key: missing file, permissions, or passphrase
     │   ├── PlaceError              selector that cannot be resolved on this site
+    │   │   └── NoPlaceError        selector that matches nothing on this site
     │   ├── OutputError             file or folder that cannot be written
     │   │   ├── JournalError        folder or journal of a mission that cannot be continued
     │   │   └── StoreError          queue of missions: the robot's store or the sender's outbox
@@ -52,6 +53,7 @@ __all__ = [
     "KeyFileError",
     "LostFault",
     "ModelError",
+    "NoPlaceError",
     "NotApprovedError",
     "NotConfirmedError",
     "NotTrustedError",
@@ -171,6 +173,10 @@ class KeyFileError(InputError):
 
 class PlaceError(InputError):
     """A selector matches no place on this site, or names something that the site lacks."""
+
+
+class NoPlaceError(PlaceError):
+    """A selector matches no place on this site, although all that it names exists."""
 
 
 class OutputError(InputError):

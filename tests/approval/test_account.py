@@ -57,6 +57,13 @@ def test_each_word_has_what_it_became_and_the_pieces_are_the_request() -> None:
     ]
 
 
+def test_a_unit_with_a_stroke_stays_together() -> None:
+    request = "spray rows 3 to 8 at 250 l/ha"
+    outcome = EnglishPlanner().plan(request, SITE, load_robot("tractor"))
+    assert isinstance(outcome, Planned)
+    assert [(p.role, p.text) for p in request_pieces(outcome.task)] == [("action", request)]
+
+
 def test_a_step_that_is_gone_from_the_plan_leaves_a_warning_that_quotes_its_words() -> None:
     task = planned("Take a picture of tree 4. If it is below 33 °C, measure CO2 at tree 5.")
     (sequence,) = [node for node in walk(task.composition.plan) if isinstance(node, InOrder)]

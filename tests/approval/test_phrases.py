@@ -224,6 +224,31 @@ SAID = [
         None,
         "the trees in the northern half of the trees inside the zone “wet”",
     ),
+    (
+        s.DoneEarlier(action="take_thermal_picture", period=s.Period(calendar="yesterday")),
+        None,
+        "the trees visited yesterday to take a thermal picture",
+    ),
+    (
+        s.Excluding(places=s.DoneEarlier(action="read_co2"), of=s.Rows(first="3", last="3")),
+        None,
+        "the trees of row 3 not visited before to read CO₂",
+    ),
+    (
+        s.DoneEarlier(outcome="left_out", period=s.Period(last_missions=3)),
+        None,
+        "the trees left out by a mission in the last 3 missions",
+    ),
+    (
+        s.TopEarlier(quantity="co2", count=5, lowest=True, period=s.Period(calendar="last_week")),
+        None,
+        "the 5 trees with the lowest CO₂ read last week",
+    ),
+    (
+        s.WhereEarlier(quantity="co2", test="gt", value=450.0, unit="ppm", period=s.Period(first_day="--10-01")),
+        None,
+        "the trees whose CO₂ read since 10-01 was above 450 ppm",
+    ),
 ]
 
 LOW = c.Level(reading="r", quantity="canopy_temperature", level="low")

@@ -15,6 +15,7 @@ from fieldhand_bench.missions.case_form import EndForm, ExpectForm
 from fieldhand_bench.missions.places import Near, Positions
 
 STEP = {"do": "take_thermal_picture"}
+PAST = {"as_of": "2026-01-01T12:00:00+00:00"}
 WORLD = {"expect": {"steps": [STEP]}}
 
 
@@ -75,6 +76,26 @@ def test_every_key_of_a_world_arrives_at_the_judge(tmp_path: Path) -> None:
     assert loaded.worlds[0].world.readings["co2"].trees[0][1] == 380
 
 
+def test_earlier_missions_of_a_case_are_records_in_the_order_of_time(tmp_path: Path) -> None:
+    reading = {"name": "co2", "value": 520, "unit": "ppm"}
+    late = {"begun": "2025-12-31T08:00:00+00:00", "captures": [{"trees": [3], "outcome": "left_out"}]}
+    early = {
+        "begun": "2025-12-20T08:00:00+00:00",
+        "captures": [{"trees": [7, "8"], "do": "read_co2", "read": [reading]}, {"trees": [9], "do": "read_co2"}],
+    }
+    earlier = {"as_of": "2026-01-01T12:00:00+00:00", "missions": [late, early]}
+    (loaded,) = load_cases([write(tmp_path, book(case(earlier=earlier)))])
+    assert loaded.earlier is not None
+    first, last = loaded.earlier.missions
+    assert [(one.place, one.at[11:16], one.action) for one in first.captures] == [
+        ("7", "08:00", "read_co2"),
+        ("8", "08:01", "read_co2"),
+        ("9", "08:02", "read_co2"),
+    ]
+    assert [value.value for one in first.captures for value in one.values] == [520.0, 520.0]
+    assert [(one.place, one.outcome) for one in last.captures] == [("3", "left_out")]
+
+
 def test_a_case_names_its_own_site_beside_its_file(tmp_path: Path) -> None:
     tree = {"type": "Feature", "properties": {"kind": "tree"}, "geometry": {"type": "Point", "coordinates": [0.0, 0.0]}}
     other = tree | {"geometry": {"type": "Point", "coordinates": [0.0001, 0.0]}}
@@ -112,6 +133,23 @@ BAD = {
     "asked in a world": (book(case(ask=True)), "leave out ask or worlds"),
     "nothing expected": (book(case(worlds=[{"readings": {"co2": 1}}])), "the key 'expect' is missing"),
     "nothing said of what must be done": (book(expecting(max_travel_m=5)), "give steps, count_only or worked"),
+    "an unknown key of earlier work": (
+        book(case(earlier=PAST | {"missions": [{"begun": PAST["as_of"], "captures": [{"tree": [4]}]}]})),
+        "no key 'tree'",
+    ),
+    "earlier work left out, with an action": (
+        book(
+            case(
+                earlier=PAST
+                | {
+                    "missions": [
+                        {"begun": PAST["as_of"], "captures": [{"trees": [4], "do": "read_co2", "outcome": "left_out"}]}
+                    ]
+                }
+            )
+        ),
+        "give the action under 'do'",
+    ),
     "no site": ({"robot": "husky", "cases": [case()]}, "has no site"),
     "a missing site": (book(case(), site="nowhere.geojson"), "there is no site file 'nowhere.geojson'"),
     "a site that is none": (book(case(), site="cases.yaml"), "is not a GeoJSON file"),

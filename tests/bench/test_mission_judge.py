@@ -222,6 +222,19 @@ def test_drives_keep_away_from_trees(metres: float, fault: str) -> None:
     assert bool(found(expect, lines)) == bool(fault)
 
 
+@pytest.mark.parametrize(
+    ("speed", "fault"),
+    [(0.4, ""), (0.6, "it drove at 0.60 m/s within 3 m of the trees {ids: [2]}, 0.5 m/s at most wanted")],
+)
+def test_drives_are_slow_near_trees(speed: float, fault: str) -> None:
+    """A drive that goes on at another speed counts with the part that was driven at each."""
+    fast = {"event": "drive", "node": "n1", "place": "2", "path": [degrees(0), degrees(2)], "speed_m_s": 1.0}
+    slow = {"event": "drive", "node": "n1", "place": "2", "path": [degrees(1), degrees(2)], "speed_m_s": speed}
+    expect = {"steps": [{"do": "photo"}], "slow_near": [{"trees": {"ids": [2]}, "m": 3, "most_m_s": 0.5}]}
+    assert found(expect, [json.dumps(fast), json.dumps(slow), *log(("photo", 2))]) == fault
+    assert found(expect, [json.dumps(fast), *log(("photo", 2))]).startswith("it drove at 1.00 m/s")
+
+
 # --- work along paths -------------------------------------------------------------------------------------------------
 
 SPRAYED = {"worked": [{"do": "spray", "metres": [18, 22], "past": {"ids": [0, 1, 2, 3, 4]}}]}

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from fieldhand.cli.demo import REQUEST as WARNED
+from fieldhand.cli.demo import MISSIONS, DemoName
 from fieldhand.language import catalogue
 from fieldhand.program import main
 from language.silent_language import silent_po, words_left, words_of
@@ -138,9 +138,9 @@ def test_the_plan_is_declined_or_nobody_is_there(command: Command) -> None:
         (["--confirm"], "perhaps\nn\n"),
         ([], ""),
     ):
-        done = command("run", WARNED, "--site", "demo", *words, typed=typed)
+        done = command("run", MISSIONS[DemoName.PICTURES].request, "--site", "demo", *words, typed=typed)
         assert done.status == 1
-        assert not done.leaks(WARNED)
+        assert not done.leaks(MISSIONS[DemoName.PICTURES].request)
 
 
 @pytest.mark.parametrize("typed", ["s\n", "y\n", "YES\n", "perhaps\nyes\n"])

@@ -127,7 +127,7 @@ def test_a_question_and_a_refusal_have_no_task():
     question = fh.plan("Measure CO2 at the corner tree.", SITE, ROBOT)
     with pytest.raises(RequestError, match=r"which is meant\?.*north-west"):
         question.task  # noqa: B018
-    with pytest.raises(RequestError, match="'Prune' asks for work that husky has no tool for"):
+    with pytest.raises(RequestError, match="husky cannot prune: no action 'prune'"):
         fh.plan("Prune the trees.", SITE, ROBOT).task  # noqa: B018
 
 

@@ -17,9 +17,10 @@ import numpy as np
 from lxml import etree
 
 from fieldhand import mission
+from fieldhand.errors import NoPlaceError
 from fieldhand.evaluation.log_replay import replay_log
 from fieldhand.exchange.btcpp import write_tree
-from fieldhand.execution.drivers.simulation.world import ActionFails, TreeRef, World
+from fieldhand.execution.drivers.simulation.world import ActionFails, ScriptedEvent, TreeRef, World
 from fieldhand.execution.guard import Guard
 from fieldhand.forecast import visit_order
 from fieldhand.forecast.conditions import ConditionInputs, evaluate
@@ -27,21 +28,43 @@ from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, Visit
 from fieldhand.forecast.request_handler import ForecastHandler, OptionalWorkPolicy
 from fieldhand.forecast.walk_branch import walk_branch as preview
 from fieldhand.forecast.walk_steps import Walk
+from fieldhand.forecast.working import begin_of, end_of, stretches_of
 from fieldhand.places.context import Context
 from fieldhand.places.reading_series import ReadingSeries, TakenReading
-from fieldhand.places.resolution import resolve_one
+from fieldhand.places.resolution import resolve, resolve_one
 from fieldhand.places.selector import Selector
-from fieldhand.places.selectors import Bound, ByReading, Farthest, Here, Nearest, TreeIs, UnionOf
+from fieldhand.places.selectors import (
+    SELECTORS,
+    Beside,
+    Bound,
+    ByReading,
+    DoneEarlier,
+    Excluding,
+    Farthest,
+    Here,
+    Marker,
+    Nearest,
+    Period,
+    Rows,
+    TopEarlier,
+    TreeIs,
+    UnionOf,
+    WhereEarlier,
+)
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.charging_document import ChargingDocument
+from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.drives import Drives
+from fieldhand.site.earlier_missions import EarlierCapture, EarlierMission, EarlierMissions, EarlierValue
 from fieldhand.site.model import Place, Site
 from fieldhand.task.aggregates import Aggregate, CompareSeries, CountReadings, MeanKnown, SeriesCondition
+from fieldhand.task.build import make_task
 from fieldhand.task.codec import decode_parts
 from fieldhand.task.conditions import AllOf, AnyOf, Compare, Condition, Not
 from fieldhand.task.conditions import walk as condition_parts
-from fieldhand.task.frames import Task
+from fieldhand.task.earlier import site_of, with_earlier
+from fieldhand.task.frames import Constraints, Task
 from fieldhand.task.plan import (
     Act,
     AnyOrder,
@@ -56,23 +79,31 @@ from fieldhand.task.plan import (
     StopMission,
     Try,
     Wait,
+    WorkAlong,
     acts,
     walk,
 )
 from fieldhand.task.plan import (
     InOrder as Steps,
 )
-from fieldhand.task.results import Acted, Arrived, Decided, Dwelt, Ended, Event, Exited, Visiting
+from fieldhand.task.results import Acted, Arrived, Decided, Dwelling, Dwelt, Ended, Event, Exited, Visiting, Worked
+from fieldhand.task.watches import EventAbsent, EventBeyond, EventHolds, Watch, WatchCondition
+from fieldhand.task.ways import Avoid, SlowNear
 from support.missions.rechargeable import CHARGING
-from support.missions.rig import approved, task_for
+from support.missions.rig import approved
 from support.missions.rig import husky as bare_husky
 from support.missions.rig import orchard as bare_orchard
+from support.missions.watched import EVENTS
 
 #: What happens: kind ("drive", "capture", "failure", "wait"), id of the node, id of the place (of a wait the seconds).
 Trace = list[tuple[str, str, str]]
 
 #: Fails at some trees, and stands only where a try catches that.
 FAILING = "read_co2"
+#: Is on along a path.
+SPRAY = "spray"
+#: A drive of so many metres is none: a stretch begins where the one before ended.
+NOTHING_M = 1e-6
 QUANTITIES = {
     "read_co2": ("co2", "ppm", 420.0),
     "take_thermal_picture": ("canopy_temperature", "degC", 33.0),
@@ -82,18 +113,48 @@ QUANTITIES = {
 
 @cache
 def orchard() -> Site:
-    """The orchard of the rig with a charger."""
+    """The orchard of the rig with a charger, and a hole in an aisle between two trees."""
     site = bare_orchard()
-    ((lat, lon),) = site.projection.lat_lon([(-5.0, 10.0)])
-    charger = Place(kind="marker", id="charger", x=-5.0, y=10.0, lat=lat, lon=lon)
-    return replace(site, markers={**site.markers, "charger": charger})
+    markers = dict(site.markers)
+    for name, x, y in (("charger", -5.0, 10.0), ("hole", 12.5, 7.5)):
+        ((lat, lon),) = site.projection.lat_lon([(x, y)])
+        markers[name] = Place(kind="marker", id=name, x=x, y=y, lat=lat, lon=lon)
+    return replace(site, markers=markers)
 
 
 @cache
 def husky() -> RobotProfile:
-    """The husky of the rig, which can recharge."""
+    """The husky of the rig, which can recharge, detects events, and has the band sprayer of the tractor."""
     robot = bare_husky()
-    return replace(robot, energy=replace(robot.energy, charging=ChargingDocument.model_validate(CHARGING).charging()))
+    (sprayer,) = (action for action in load_robot("tractor").actions if action.name == SPRAY)
+    return replace(
+        robot,
+        energy=replace(robot.energy, charging=ChargingDocument.model_validate(CHARGING).charging()),
+        actions=(*robot.actions, sprayer),
+        events=EVENTS,
+    )
+
+
+@cache
+def earlier() -> EarlierMissions:
+    """Three earlier missions in the orchard, each with a reading of every quantity at every third tree or so."""
+    rng = np.random.default_rng(21)
+    made = []
+    for day in (1, 2, 3):
+        at = f"2026-06-0{day}T08:00:00+00:00"
+        captures = [
+            EarlierCapture(
+                place=tree.place.id,
+                at=at,
+                action=action,
+                values=(EarlierValue(name=quantity, value=round(float(rng.normal(value, 2.0)), 2), unit=unit),),
+            )
+            for tree in orchard().trees
+            for action, (quantity, unit, value) in QUANTITIES.items()
+            if rng.random() < 0.35
+        ]
+        made.append(EarlierMission(id=f"m{day}", begun=at, captures=tuple(captures)))
+    return EarlierMissions(as_of="2026-06-04T08:00:00+00:00", missions=tuple(made))
 
 
 class Drawn:
@@ -118,6 +179,8 @@ class Drawn:
 
     def _place(self, label: str, *, tried: bool) -> Selector:
         options: list[Selector] = [self._tree(), self._tree(), Nearest(to=Here()), Farthest(origin=Here())]
+        if self._chance(0.2):
+            options += [Beside(side="both" if self._chance(0.2) else "north", of=self._tree())]
         if label:
             options += [Bound(label=label), Nearest(to=Bound(label=label), adjacent=True)]
         if not tried and self._chance(0.15):  # a preview cannot go on without its place, as a try does
@@ -129,6 +192,28 @@ class Drawn:
         return ByReading(
             reading=str(self._rng.choice(["a", "b"])), quantity=quantity, count=count, lowest=self._chance(0.5)
         )
+
+    def _by_records(self, of: Selector) -> Selector:
+        """A choice by earlier missions, if it is not empty; else the group itself."""
+        action = str(self._rng.choice(list(QUANTITIES)))
+        quantity, unit, value = QUANTITIES[action]
+        period = Period(last_missions=int(self._rng.integers(1, 4)))
+        done = DoneEarlier(action=action, period=period)
+        some: Selector
+        match int(self._rng.integers(4)):
+            case 0:
+                some = Excluding(places=done, of=of)
+            case 1:
+                some = replace(done, of=of)
+            case 2:
+                some = TopEarlier(quantity=quantity, count=3, lowest=self._chance(0.5), period=period)
+            case _:
+                some = WhereEarlier(quantity=quantity, test="gt", value=value, unit=unit, period=period, of=of)
+        try:
+            found = resolve(some, orchard().with_earlier(earlier()), Context(here=orchard().start))
+        except NoPlaceError:
+            return of
+        return some if found else of
 
     def _series_condition(self) -> Condition:
         quantity, unit, value = QUANTITIES[str(self._rng.choice(list(QUANTITIES)))]
@@ -185,7 +270,7 @@ class Drawn:
                 depth - 1, tried=tried or also_tried, optional=optional or also_optional, label=named or label
             )
 
-        match int(self._rng.integers(10)):
+        match int(self._rng.integers(11)):
             case 0 | 1:
                 return Steps(id="", steps=tuple(inner() for _ in range(int(self._rng.integers(1, 4)))))
             case 2:
@@ -206,10 +291,66 @@ class Drawn:
                 return Steps(id="", steps=(first, chosen))
             case 7:
                 return Pace(id="", body=inner(), speed_m_s=float(self._rng.choice([0.3, 0.5, 0.9])))
-            case 8:
+            case 8 if not optional:
+                return self._along()
+            case 9:
                 return Try(id="", body=inner(also_tried=True), otherwise=inner())
             case _:
                 return inner() if optional else OptionalStep(id="", body=inner(also_optional=True))
+
+    def _along(self) -> WorkAlong:
+        rows = self._rng.permutation(["r0", "r1", "r2", "r3"])[: int(self._rng.integers(1, 4))].tolist()
+        mode = str(self._rng.choice(["rows", "rows", "aisles", "headlands"])) if len(rows) > 1 else "rows"
+        select = UnionOf(parts=tuple(Rows(first=row, last=row) for row in rows))
+        return WorkAlong(
+            id="",
+            action=SPRAY if mode == "rows" and self._chance(0.6) else "",
+            along=select if len(rows) > 1 else select.parts[0],
+            mode=mode,  # type: ignore[arg-type]
+            sides="both" if mode == "rows" and self._chance(0.3) else "one",
+            order="given" if self._chance(0.3) else "best",
+        )
+
+    def constraints(self) -> Constraints:
+        """Ground to keep away from, which closes an aisle between two trees, and ground to drive slowly on."""
+        options: list[Selector] = [self._tree(), Rows(first="r1", last="r1"), Marker(name="end"), self._tree()]
+        slow = tuple(
+            SlowNear(
+                places=options[k],
+                distance_m=float(self._rng.choice([2.0, 5.0, 9.0])),
+                speed_m_s=float(self._rng.choice([0.2, 0.4, 0.7])),
+            )
+            for k in self._rng.permutation(4)[: int(self._rng.integers(0, 3))].tolist()
+        )
+        avoid = (Avoid(places=Marker(name="hole"), distance_m=2.0),) if self._chance(0.3) else ()
+        return Constraints(avoid=avoid, slow=slow)
+
+    def watches(self) -> tuple[Watch, ...]:
+        """Events at which the robot waits or drives slowly, after which it goes on as before."""
+        conditions: list[WatchCondition] = [
+            EventHolds(event="person_near"),
+            EventBeyond(event="wind", test="gt", value=5.0, unit="m/s"),
+            EventAbsent(event="gate_closed"),
+        ]
+        return tuple(
+            Watch(
+                condition=conditions[k],
+                response="slow" if self._chance(0.5) else "wait",
+                at_most_s=float(self._rng.integers(5, 60)),
+                fallback="go_on",
+                speed_m_s=0.3 if self._chance(0.5) else None,
+                during=FAILING if self._chance(0.2) else "",
+            )
+            for k in self._rng.permutation(3)[: int(self._rng.integers(0, 3))].tolist()
+        )
+
+    def happening(self) -> tuple[ScriptedEvent, ...]:
+        """What the watches of a mission are for."""
+        return (
+            ScriptedEvent(event="person_near", chance=0.3, every_s=90, for_s=20),
+            ScriptedEvent(event="wind", value=7.0, chance=0.2, every_s=120, for_s=30),
+            ScriptedEvent(event="gate_closed", from_s=float(self._rng.integers(0, 40))),
+        )
 
     def _collects(self) -> str:
         return "a" if self._chance(0.2) else ""
@@ -218,8 +359,12 @@ class Drawn:
         names = self._rng.permutation(self._trees)[: int(self._rng.integers(1, 5))].tolist()
         near = self._chance(0.2) and not optional
         select: Selector = UnionOf(parts=tuple(TreeIs(tree=t) for t in names))
+        if self._chance(0.2):
+            select = Beside(side=str(self._rng.choice(["both", "north", "south"])), of=select)  # type: ignore[arg-type]
         if near:
             select = self._by_reading(2) if not tried and self._chance(0.5) else Nearest(to=Here(), count=2)
+        elif self._chance(0.25):
+            select = self._by_records(select)
         return ForEach(
             id="",
             select=select,
@@ -265,11 +410,18 @@ class Simulated:
     @property
     def trace(self) -> Trace:
         found: Trace = []
+        seconds = 0.0
         for event in self._of_plan():
+            if isinstance(event, Arrived) and event.kind == "point" and event.leg_m < NOTHING_M:
+                continue
             if isinstance(event, Arrived):
                 found.append(("drive", event.node, event.place))
+            elif isinstance(event, Dwelling):
+                seconds = event.seconds
             elif isinstance(event, Dwelt):
-                found.append(("wait", event.node, f"{event.seconds:.3f}"))
+                found.append(("wait", event.node, f"{seconds:.3f}"))  # an event may prolong it
+            elif isinstance(event, Worked) and event.status == "success":
+                found.append(("work", event.node, event.stretch))
             elif isinstance(event, Acted) and event.status == "success":
                 found.append(("capture", event.node, event.place))
             elif isinstance(event, Acted):
@@ -370,7 +522,8 @@ class AsChosen:
         return tuple(self._chosen[node].popleft())
 
     def takes(self, walker: ForecastHandler, node: OptionalStep) -> bool:
-        return self._taken[node.id].popleft()
+        taken = self._taken.get(node.id)
+        return bool(taken) and taken.popleft()  # a step that cannot be reached is not offered to the guard
 
 
 def simulated(seed: int) -> Simulated:
@@ -378,9 +531,19 @@ def simulated(seed: int) -> Simulated:
     robot, site = husky(), orchard()
     for attempt in range(100):
         rng = np.random.default_rng([18, seed, attempt])
-        task = task_for(Drawn(rng).plan(), nominal=str(rng.choice(["return_to_start", "return_to_end", "stay"])))  # type: ignore[arg-type]
+        drawn = Drawn(rng)
+        task = make_task(
+            request="a test",
+            plan=drawn.plan(),
+            measures={},
+            nominal=str(rng.choice(["return_to_start", "return_to_end", "stay"])),  # type: ignore[arg-type]
+            constraints=drawn.constraints(),
+            watches=drawn.watches(),
+        )
+        task = with_earlier(task, earlier())
         bad = rng.permutation([t.place.id for t in site.trees])[:7].tolist()
-        world = World(faults=tuple(ActionFails(action=FAILING, at=TreeRef(id=tree)) for tree in bad))
+        faults = tuple(ActionFails(action=FAILING, at=TreeRef(id=tree)) for tree in bad)
+        world = World(faults=faults, events=drawn.happening())
         events: list[Event] = []
         watch = _Watch(events)
         mission.simulate(
@@ -405,7 +568,7 @@ def previewed(flight: Simulated, optional: OptionalWorkPolicy | None) -> Walk:
         orchard(),
         husky(),
         holds=lambda node: decisions[node].popleft(),
-        fails=lambda node: work[node].popleft().failed,
+        fails=lambda node: bool(work[node]) and work[node].popleft().failed,
         measured=lambda node: read[node].popleft().readings,
         optional=optional,
     )
@@ -415,8 +578,12 @@ def trace_of(walked: Walk) -> Trace:
     """Return the events of a preview."""
     found: Trace = []
     for step in walked.steps:
-        if step.kind == "drive":
+        if step.kind == "drive" and step.drive is not None:
+            if step.places[0].kind == "point" and step.drive.length_m < NOTHING_M:
+                continue  # as the robot's trace
             found.append(("drive", step.node.id, step.places[0].id))
+        elif step.kind == "work" and step.stretch is not None:
+            found.append(("work", step.node.id, step.stretch.name))
         elif step.kind == "wait":
             found.append(("wait", step.node.id, f"{step.seconds:.3f}"))
         elif step.kind == "act" and step.node.act is not None:
@@ -442,11 +609,12 @@ class Interpreter:
     _series: dict[str, ReadingSeries] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        robot, site = husky(), orchard()
         self._task = self.flight.task
+        robot, site = husky(), site_of(self._task, orchard())
+        self._site = site
         self._work = self.flight.work
         self._optional = AsChosen(self.flight)
-        self._drives = visit_order.drives_for(site, robot)
+        self._drives = visit_order.drives_for(site, robot, self._task.constraints)
         self._context = Context(here=visit_order.start_place(self._drives))
         self._tree = etree.fromstring(write_tree(self._task, capabilities_of(robot)))[0]
         self._tested = self._conditions()
@@ -517,6 +685,8 @@ class Interpreter:
                 return self._tick(element[0]) is not False
             case "Wait":
                 self.trace.append(("wait", _node(element), f"{float(element.get('wait_duration')):.3f}"))
+            case "WorkAlong":
+                self._work_along(element)
             case "RechargeBattery":
                 self._drive(element, orchard().markers["charger"])
             case "ResolvePlaces":
@@ -534,9 +704,18 @@ class Interpreter:
                 return self._acts(element)
         return True
 
+    def _work_along(self, element: Any) -> None:
+        robot, site = husky(), orchard()
+        work = replace(decode_parts(element.get("work"), (WorkAlong,))[0], id=_node(element))
+        context = replace(self._context, series=self._series)
+        for stretch in stretches_of(work, self._task, site, robot, self._drives, context):
+            self._drive(element, begin_of(stretch, site))
+            self.trace.append(("work", work.id, stretch.name))
+            self._context = replace(self._context, here=end_of(stretch, site))
+
     def _truth(self, element: Any, condition: Condition) -> bool:
         facts = ConditionInputs(
-            site=orchard(), robot=husky(), here=self._context.here, readings=self._readings, series=self._series
+            site=self._site, robot=husky(), here=self._context.here, readings=self._readings, series=self._series
         )
         truth = evaluate(condition, facts).truth
         return element.get("if_unknown") == "true" if truth is None else truth
@@ -548,9 +727,10 @@ class Interpreter:
 
     def _drive(self, element: Any, place: Place) -> None:
         here, visited, bound = self._context.here, self._context.visited, self._context.bound
-        if place.xy != here.xy:
+        if not here.covers(place):
             here = self._drives.between(here, place).end
-            self.trace.append(("drive", _node(element), here.id))
+            if here.kind != "point" or self._drives.between(self._context.here, here).length_m >= NOTHING_M:
+                self.trace.append(("drive", _node(element), here.id))
         if here.kind == "tree" and here.id not in set(visited):
             visited = (*visited, here.id)
         if label := element.get("label"):
@@ -558,7 +738,7 @@ class Interpreter:
         self._context = Context(here=here, visited=visited, bound=bound)
 
     def _place(self, text: str) -> Place:
-        return resolve_one(_selectors(text)[0], orchard(), replace(self._context, series=self._series))
+        return resolve_one(_selectors(text)[0], self._site, replace(self._context, series=self._series))
 
     def _resolved(self, element: Any) -> tuple[Place, ...]:
         node, context = _node(element), replace(self._context, series=self._series)
@@ -571,7 +751,7 @@ class Interpreter:
             order=element.get("order", "best"),
             at_most=int(element.get("at_most")) if "at_most" in element.attrib else None,
         )
-        places = visit_order.places_of(loop, loop.select, orchard(), context)
+        places = visit_order.places_of(loop, loop.select, self._site, context)
         home = visit_order.home_if_last(self._task, orchard(), node, self._context.here)
         return visit_order.visits_in_order(loop, self._drives, self._context.here, places, home)
 
@@ -579,7 +759,7 @@ class Interpreter:
         node = next(n for n in walk(self._task.composition.plan) if n.id == _node(element))
         home = visit_order.home_if_last(self._task, orchard(), node.id, self._context.here)
         context = replace(self._context, series=self._series)
-        order = visit_order.steps_in_order(node, orchard(), self._drives, context, home)  # type: ignore[arg-type]
+        order = visit_order.steps_in_order(node, self._site, self._drives, context, home)  # type: ignore[arg-type]
         return tuple(k + 1 for k in order)
 
     def _acts(self, element: Any) -> bool:
@@ -612,7 +792,7 @@ def _node(element: Any) -> str:
 
 @cache
 def _selectors(text: str) -> tuple[Selector, ...]:
-    return decode_parts(text, (TreeIs, Nearest, Farthest, Bound, UnionOf, ByReading))
+    return decode_parts(text, SELECTORS)
 
 
 def disagreements(flight: Simulated) -> list[str]:
@@ -634,7 +814,9 @@ def _of_replay(flight: Simulated, walked: Walk) -> list[str]:
     for step in walked.steps:
         if step.kind == "act" and step.node.act is not None:
             wanted[step.node.id] += step.node.act.count
-    done = Counter(node for kind, node, _ in flight.trace if kind == "capture")
+        elif step.kind == "work":
+            wanted[step.node.id] += 1
+    done = Counter(node for kind, node, _ in flight.trace if kind in ("capture", "work"))
     failed = Counter(node for kind, node, _ in flight.trace if kind == "failure")
     found = []
     for name, tally in tallies.items():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -29,7 +30,7 @@ from fieldhand.site.describe.rows import row_table
 from fieldhand.site.drives import Drives
 from fieldhand.site.gaps import empty_positions
 from fieldhand.site.loader import open_site
-from fieldhand.site.model import Place, Site
+from fieldhand.site.model import Place, Site, Zone
 from support.sites.gardens import pasture
 from support.sites.points import at_start, planted, site_of, without_rows
 
@@ -271,6 +272,17 @@ def test_gaps_are_where_trees_were_taken_out_between_others(removed):
     if expected:
         assert {(round(p.x, 6), round(p.y, 6)) for p in found(Missing(), site)} == expected
         assert {p.kind for p in found(Missing(), site)} == {"gap"}
+
+
+def test_where_a_row_passes_a_pond_no_tree_is_missing():
+    lines = [[(6.0 * k, -4.0 * j) for j in range(12) if (k, j) not in {(0, 3), (1, 7), (2, 7)}] for k in range(3)]
+    site = site_of(
+        [at for line in lines for at in line], row_names=[str(k) for k, line in enumerate(lines) for _ in line]
+    )
+    pond = Zone(name="pond", kind="keep_out", polygon=Point(9.0, -28.0).buffer(4.5))
+    watered = replace(site, zones=(*site.zones, pond))
+    assert {(round(p.x), round(p.y)) for p in found(Missing(), site)} == {(0, -12), (6, -28), (12, -28)}
+    assert {(round(p.x), round(p.y)) for p in found(Missing(), watered)} == {(0, -12)}
 
 
 def test_gaps_belong_to_what_both_their_neighbours_belong_to():

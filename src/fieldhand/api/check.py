@@ -8,9 +8,11 @@ from fastapi import APIRouter
 
 from fieldhand import mission
 from fieldhand.api.answers import review_answer
+from fieldhand.api.earlier import with_logs
 from fieldhand.api.inputs import CheckBody, open_site_and_robot, open_task
 from fieldhand.api.work import Workers
 from fieldhand.language import open_language
+from fieldhand.task.codec import encode
 
 
 def router(workers: Workers) -> APIRouter:
@@ -28,6 +30,9 @@ def router(workers: Workers) -> APIRouter:
 def _check(body: CheckBody) -> dict[str, Any]:
     site_and_robot = open_site_and_robot(body)
     task, document = open_task(body.xml, site_and_robot.robot)
+    added = with_logs(task, body.earlier, site_and_robot.site)
+    if added is not task:
+        task, document = added, encode(added)
     review = mission.review(task, site_and_robot.site, site_and_robot.robot, document=document)
     return {
         "outcome": "checked",

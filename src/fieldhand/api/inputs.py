@@ -51,6 +51,9 @@ Name = Annotated[
     Text, StringConstraints(strip_whitespace=True, min_length=1, max_length=100), AfterValidator(_on_one_line)
 ]
 
+#: Event logs of earlier missions; None if there are none to count.
+EarlierLogs = Annotated[list[list[dict[str, Any]]], Field(max_length=1000)] | None
+
 
 class Body(BaseModel):
     """A request body; unknown fields are refused."""
@@ -116,12 +119,14 @@ class PlanBody(SiteAndRobotBody):
     request: RequestText
     answers: AnswerList = []
     planner: Literal["auto", "english", "llm"] = "auto"
+    earlier: EarlierLogs = None
 
 
 class CheckBody(SiteAndRobotBody):
     """A Task document to check."""
 
     xml: Xml
+    earlier: EarlierLogs = None
 
 
 class RunBody(SiteAndRobotBody):
@@ -135,6 +140,7 @@ class RunBody(SiteAndRobotBody):
     confirmed: Warnings = []
     seed: Annotated[int, Field(ge=0, lt=2**32)] | None = None
     world: dict[str, Any] | None = None
+    earlier: EarlierLogs = None
 
     @model_validator(mode="after")
     def _one_of_both(self) -> RunBody:

@@ -9,6 +9,7 @@ from fastapi import APIRouter
 
 from fieldhand import mission
 from fieldhand.api.answers import review_answer, unplanned_answer
+from fieldhand.api.earlier import records_of
 from fieldhand.api.inputs import PlanBody, answers_of, open_site_and_robot
 from fieldhand.api.work import Workers
 from fieldhand.language import open_language
@@ -35,7 +36,12 @@ def _plan(body: PlanBody, planners: Planners) -> dict[str, Any]:
 
     site_and_robot = open_site_and_robot(body)
     outcome = mission.plan(
-        body.request, site_and_robot.site, site_and_robot.robot, planners(body.planner), answers_of(body)
+        body.request,
+        site_and_robot.site,
+        site_and_robot.robot,
+        planners(body.planner),
+        answers_of(body),
+        earlier=records_of(body.earlier, site_and_robot.site),
     )
     if not isinstance(outcome, Planned):
         return unplanned_answer(outcome, site_and_robot)

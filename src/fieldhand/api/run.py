@@ -14,6 +14,7 @@ from fastapi import APIRouter
 
 from fieldhand import mission
 from fieldhand.api.answers import unplanned_answer
+from fieldhand.api.earlier import records_of, with_logs
 from fieldhand.api.inputs import RunBody, answers_of, open_site_and_robot, open_task
 from fieldhand.api.maps import driven_map
 from fieldhand.api.plan import Planners
@@ -48,13 +49,19 @@ def _run(body: RunBody, planners: Planners, limits: Limits) -> dict[str, Any]:
     world = World() if body.world is None else parse_world(body.world, source="world")
     if body.request is not None:
         outcome = mission.plan(
-            body.request, site_and_robot.site, site_and_robot.robot, planners(body.planner), answers_of(body)
+            body.request,
+            site_and_robot.site,
+            site_and_robot.robot,
+            planners(body.planner),
+            answers_of(body),
+            earlier=records_of(body.earlier, site_and_robot.site),
         )
         if not isinstance(outcome, Planned):
             return unplanned_answer(outcome, site_and_robot)
         task = outcome.task
     else:
         task, _ = open_task(body.xml or "", site_and_robot.robot)
+        task = with_logs(task, body.earlier, site_and_robot.site)
     approved = mission.authorize(
         mission.review(task, site_and_robot.site, site_and_robot.robot),
         by=body.approved_by,

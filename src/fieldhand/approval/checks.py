@@ -15,6 +15,7 @@ from fieldhand.approval.account import unaccounted
 from fieldhand.approval.battery import battery_problems
 from fieldhand.approval.branch_checks import branch_problems, exit_problems
 from fieldhand.approval.budget import budget_problems
+from fieldhand.approval.earlier_checks import choice_problems, none_now, records_problems
 from fieldhand.approval.problem import PlanProblem, node_in, with_words
 from fieldhand.approval.recharging import recharge_ability_problems, recharge_problems, return_problems
 from fieldhand.approval.request_warnings import request_warnings
@@ -23,7 +24,7 @@ from fieldhand.approval.timing import timing_problems
 from fieldhand.approval.watch_checks import watch_problems
 from fieldhand.approval.ways import by_rules, rule_problems, way_problems
 from fieldhand.approval.working_checks import implement_problems, working_problems
-from fieldhand.errors import FieldhandError, PlaceError, TaskError
+from fieldhand.errors import FieldhandError, NoPlaceError, PlaceError, TaskError
 from fieldhand.forecast.estimate import Estimate, estimate, explore
 from fieldhand.forecast.visit_order import drives_for, start_place
 from fieldhand.language import message, named
@@ -36,6 +37,7 @@ from fieldhand.short_repr import short_repr
 from fieldhand.site.drives import Drives
 from fieldhand.site.model import Place, Site
 from fieldhand.task.codec import encode
+from fieldhand.task.earlier import may_have_none, site_of
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import Node, walk
 from fieldhand.task.references import reference_problems
@@ -92,14 +94,17 @@ def examine(
     """Check a Task as :func:`check` does and return the estimate along with the problems.
 
     Args:
-        task, site, robot, document: As for :func:`check`.
+        task, site, robot, document: As for :func:`check`. The site of the examination has the earlier missions that the
+            Task contains.
         seed: Seed of the estimate.
         charge_percent: State of charge at the start, in percent.
     """
+    site = site_of(task, site)
     problems = [*_document(task, robot, document), *_references(task, robot), *_resources(task, site, robot)]
     problems.extend(implement_problems(task, robot))
     problems.extend(unaccounted(task))
     problems.extend(speed_problems(task, robot))
+    problems.extend(records_problems(task))
     if not _errors(problems):
         problems.extend(watch_problems(task, robot))
     if not _errors(problems):
@@ -108,6 +113,8 @@ def examine(
         problems.extend(recharge_ability_problems(task, site, robot))
     if not _errors(problems):
         problems.extend(_places(task, site, robot))
+    if not _errors(problems):
+        problems.extend(choice_problems(task, site))
     forecast = None
     if not _errors(problems):
         try:
@@ -194,6 +201,12 @@ def _places(task: Task, site: Site, robot: RobotProfile) -> Iterator[PlanProblem
             continue  # an area may have no trees; it is resolved on every branch
         try:
             places = _resolved(node, selector, site)
+        except NoPlaceError as error:
+            if node.visits_each and may_have_none(task, selector):
+                yield none_now(error, node.id)
+            else:
+                yield _of_error(error, node.id)
+            continue
         except PlaceError as error:
             yield _of_error(error, node.id)
             continue

@@ -20,8 +20,10 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.short_repr import short_repr
 from fieldhand.site.model import Site
 from fieldhand.task.build import FAULTED_EXITS
+from fieldhand.task.earlier import site_of
 from fieldhand.task.frames import Budget, FaultedExit, Task, Then
 from fieldhand.wording.branches import FAULTS, say_decisions
+from fieldhand.wording.earlier import say_earlier
 from fieldhand.wording.recharging import say_charges, say_energy_limits
 from fieldhand.wording.resolved_places import gather
 from fieldhand.wording.steps import ReadBackLine, say_exit_after, write_lines
@@ -60,6 +62,7 @@ class ReadBack:
     Attributes:
         lines: The steps and the exit.
         times: Times at which the mission begins or runs again, one sentence each; empty if it begins when started.
+        earlier: What it takes from earlier missions, one sentence each; empty if it does not depend on them.
         limits: Budgets and reserve, one sentence each.
         faults: Behaviour on faults, one sentence each.
         assumptions: Assumptions made in interpreting the request.
@@ -76,6 +79,7 @@ class ReadBack:
     totals: Totals
     usual: frozenset[str] = frozenset()
     times: tuple[str, ...] = ()
+    earlier: tuple[str, ...] = ()
 
     __repr__ = short_repr
 
@@ -90,6 +94,7 @@ class ReadBack:
             *(_numbered(line) for line in self.lines),
             "",
             *(_indented(message("When: {text}", text=text)) for text in self.times),
+            *(_indented(message("Earlier missions: {text}", text=text)) for text in self.earlier),
             *(_indented(message("Limit: {text}", text=text)) for text in self.limits if text not in left_out),
             *(_indented(text) for text in self.faults if text not in left_out),
             *(_indented(message("Assumed: {text}", text=text)) for text in self.assumptions),
@@ -106,6 +111,7 @@ def read_back(task: Task, site: Site, robot: RobotProfile, estimate: Estimate) -
         site, robot: Site and robot that will carry out the Task.
         estimate: Estimate of the mission, whose branches supply the resolved places.
     """
+    site = site_of(task, site)
     walks = [branch.walk for branch in estimate.branches]
     found = gather(task, walks, max((c.chance for c in estimate.worst.chances), default=0.0))
     limits, faults = _limits(task, robot), _faults(task, site)
@@ -122,6 +128,7 @@ def read_back(task: Task, site: Site, robot: RobotProfile, estimate: Estimate) -
         ),
         totals=_totals(estimate, task, robot),
         usual=_usual(task, limits, faults),
+        earlier=say_earlier(task, site),
         times=() if task.timing is None else say_timing(task.timing),
     )
 
@@ -192,7 +199,7 @@ def _limits(task: Task, robot: RobotProfile) -> tuple[str, ...]:
     speed = task.constraints.speed_m_s
     if speed is not None:
         found.append(message("at most {speed} m/s.", speed=say_number(speed)))
-    return (*found, *say_ways(task.constraints))
+    return (*found, *say_ways(task.constraints, robot))
 
 
 def _usual(task: Task, limits: Sequence[str], faults: Sequence[str]) -> frozenset[str]:
@@ -239,10 +246,16 @@ def _notes(walks: Sequence[Walk], site: Site) -> tuple[str, ...]:
 def _waits(task: Task, robot: RobotProfile) -> tuple[str, ...]:
     """Return a note on waiting for events, which the forecast leaves out."""
     longest = [wait_limit_s(watch, robot) for watch in task.composition.watches if watch.response == "wait"]
+    slow: tuple[str, ...] = ()
+    if any(watch.response == "slow" for watch in task.composition.watches):
+        slow = (message("The figures are without events: driving slowly while one holds takes longer."),)
     if not longest:
-        return ()
+        return slow
     time = say_duration(max(longest))
-    return (message("The figures are without events: each wait adds up to {time} and what idling uses.", time=time),)
+    return (
+        *slow,
+        message("The figures are without events: each wait adds up to {time} and what idling uses.", time=time),
+    )
 
 
 def _say_sampling(sampling: SamplingForecast) -> str:

@@ -6,17 +6,21 @@ import math
 from collections.abc import Iterator
 
 from fieldhand.approval.problem import PlanProblem
+from fieldhand.forecast.slow_ground import slow_speed
 from fieldhand.language import message
 from fieldhand.language.words import say_number
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import walk
+from fieldhand.wording.watches import slow_limit_m_s
 
 
 def speed_problems(task: Task, robot: RobotProfile) -> Iterator[PlanProblem]:
     """Warn of speed limits above the robot's speed, and of those that the robot cannot be told over ROS 2."""
     whole = task.constraints.speed_m_s
     limits = [] if whole is None else [("", whole)]
+    limits += [("", slow_speed(slow.speed_m_s, robot)) for slow in task.constraints.slow]
+    limits += [("", slow_limit_m_s(w, robot)) for w in task.composition.watches if w.response == "slow"]
     limits += [(node.id, node.pace_m_s) for node in walk(task.composition.plan) if math.isfinite(node.pace_m_s)]
     for node, limit in limits:
         if limit > robot.speed_m_s:

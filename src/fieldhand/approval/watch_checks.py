@@ -6,10 +6,10 @@ from collections.abc import Iterator
 
 from fieldhand.approval.problem import PlanProblem
 from fieldhand.language import message
-from fieldhand.language.words import listed, say_name
+from fieldhand.language.words import listed, say_action, say_name
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import acts, walk
+from fieldhand.task.plan import actions_of, acts, walk
 from fieldhand.task.watches import ReadingBeyond, Watch
 from fieldhand.wording.watches import say_watched
 
@@ -23,6 +23,16 @@ def watch_problems(task: Task, robot: RobotProfile) -> Iterator[PlanProblem]:
             yield _problem(
                 message("“{what}” is to leave out a visit, and the plan has no list of visits", what=what),
                 message("let it wait, go home or end, or visit the places in a for-each"),
+            )
+        done = actions_of(task.composition.plan)
+        if watch.during and watch.during not in done:
+            yield _problem(
+                message(
+                    "“{what}” is to be noticed only in the steps to {action}, and the plan has none",
+                    what=what,
+                    action=say_action(watch.during),
+                ),
+                message("watch it during an action of the plan, or at any time"),
             )
         if isinstance(watch.condition, ReadingBeyond):
             yield from _of_reading(task, watch, watch.condition, what, robot)

@@ -1,4 +1,7 @@
-"""Check what a mission keeps away from: it exists on the site, and start, end and places can still be reached."""
+"""Check what a mission keeps away from and where it drives slowly.
+
+These places exist on the site, and start, end and the places of the plan can still be reached.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +10,7 @@ from collections.abc import Iterator, Sequence
 from fieldhand.approval.problem import PlanProblem
 from fieldhand.errors import PlaceError
 from fieldhand.forecast.closed_ground import avoided, say_avoided
+from fieldhand.forecast.slow_ground import say_slow_ground, slow_problem
 from fieldhand.forecast.visit_order import drives_for
 from fieldhand.language import message
 from fieldhand.language.words import say_gate
@@ -23,6 +27,10 @@ Closed = list[tuple[Place, str]]
 def way_problems(task: Task, site: Site, robot: RobotProfile) -> Iterator[PlanProblem]:
     """Yield the problems of what a mission keeps away from: it is unknown, without extent, or contains the start."""
     constraints = task.constraints
+    for slow in constraints.slow:
+        if (error := slow_problem(slow, site, robot)) is not None:
+            where = message("drive slowly {where}", where=say_slow_ground(slow))
+            yield PlanProblem(where=where, what=error.what, advice=error.advice)
     if not (constraints.avoid or constraints.only_gates):
         return
     whole = drives_for(site, robot)

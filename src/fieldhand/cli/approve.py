@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from fieldhand.cli.earlier import StoredEarlierOptions, add_earlier
 from fieldhand.cli.option_groups import grouped
 from fieldhand.cli.options import (
     ApprovalOptions,
@@ -37,7 +38,8 @@ class SigningOptions(ApprovalOptions):
 
 
 @grouped(
-    "request site output robot planner key by yes confirm valid_for picture answer assume transcript lenient lang json"
+    "request site output robot planner key by yes confirm valid_for picture answer assume transcript lenient"
+    " missions count_simulated recount lang json"
 )
 def approve(
     request: Annotated[str, typer.Argument(help="A Task (.xml), or what the robot should do, in plain words.")],
@@ -45,6 +47,7 @@ def approve(
     planning: PlanningOptions,
     signing: SigningOptions,
     display: DisplayOptions,
+    earlier: StoredEarlierOptions,
     output: Annotated[
         Path,
         typer.Option("-o", "--output", callback=to_whole_file, help="Where to write the signed mission (.mission)."),
@@ -74,6 +77,7 @@ def approve(
     site_and_robot, files = read_site_and_robot(place.site, place.robot, lenient=place.lenient, language=language)
     replies = Replies.of(planning, display)
     task, document, planner = plan_or_read(request, site_and_robot, planning.planner, planning.transcript, replies)
+    task, document = add_earlier(task, document, site_and_robot, earlier, earlier.missions, display)
     review = review_plan(site_and_robot, task, document, display)
     if picture is not None:
         review.save_map(picture, language=language.code)

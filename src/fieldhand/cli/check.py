@@ -7,15 +7,17 @@ from typing import Annotated
 
 import typer
 
+from fieldhand.cli.earlier import StoredEarlierOptions, add_earlier
 from fieldhand.cli.option_groups import grouped
 from fieldhand.cli.options import DisplayOptions, PictureOption, SiteAndRobotOptions
 
 
-@grouped("task site robot picture lenient charge lang json")
+@grouped("task site robot picture lenient charge missions count_simulated recount lang json")
 def check(
     task: Annotated[Path, typer.Argument(help="A Task document (XML).")],
     place: SiteAndRobotOptions,
     display: DisplayOptions,
+    earlier: StoredEarlierOptions,
     picture: PictureOption = None,
     charge: Annotated[
         float, typer.Option("--charge", min=0.0, max=100.0, metavar="<%>", help="Charge at the start, in percent.")
@@ -30,7 +32,10 @@ def check(
     language = display.language
     site_and_robot = open_site_and_robot(place.site, place.robot, lenient=place.lenient, language=language)
     read, document = mission.read_task(task, site_and_robot.robot)
-    review = mission.review(read, site_and_robot.site, site_and_robot.robot, document=document, charge_percent=charge)
+    completed = add_earlier(read, document, site_and_robot, earlier, earlier.missions, display)
+    review = mission.review(
+        completed[0], site_and_robot.site, site_and_robot.robot, document=completed[1], charge_percent=charge
+    )
     if picture is not None:
         review.save_map(picture, language=language.code)
     if display.json:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fieldhand.cli import show
 from fieldhand.cli.asking import Replies, plan_or_read, require_no_answer
 from fieldhand.cli.bundles import approval_line, is_bundle, open_mission, require_site
+from fieldhand.cli.earlier import EarlierOptions, add_earlier
 from fieldhand.cli.inputs import read_site_and_robot
 from fieldhand.cli.options import DisplayOptions, MissionInputOptions, PlanningOptions
 from fieldhand.mission.documents import InputFiles, SiteAndRobot
@@ -86,9 +88,22 @@ def open_inputs(
 
 
 def draft_mission(
-    request: str, opened: OpenedInputs, planning: PlanningOptions, display: DisplayOptions
+    request: str,
+    opened: OpenedInputs,
+    planning: PlanningOptions,
+    display: DisplayOptions,
+    earlier: EarlierOptions | None = None,
+    folder: Path | None = None,
 ) -> MissionDraft:
     """Plan a request or read a Task document; of a signed mission, take its Task.
+
+    Args:
+        request: As for :func:`open_inputs`.
+        opened: Site and robot.
+        planning: Planner and answers.
+        display: Language, and JSON instead of text.
+        earlier: Earlier missions that the plan may refer to.
+        folder: Their folder.
 
     Raises:
         InputError: An answer is given for a mission that is planned already.
@@ -101,4 +116,5 @@ def draft_mission(
         return MissionDraft(site_and_robot=site_and_robot, task=bundle.authorized.task, planner=planner, bundle=bundle)
     replies = Replies.of(planning, display)
     task, document, planner = plan_or_read(request, site_and_robot, planning.planner, planning.transcript, replies)
+    task, document = add_earlier(task, document, site_and_robot, earlier or EarlierOptions(), folder, display)
     return MissionDraft(site_and_robot=site_and_robot, task=task, document=document, planner=planner)

@@ -7,17 +7,22 @@ from typing import Annotated
 
 import typer
 
+from fieldhand.cli.earlier import StoredEarlierOptions
 from fieldhand.cli.option_groups import grouped
 from fieldhand.cli.options import DisplayOptions, PictureOption, PlanningOptions, SiteAndRobotOptions
 from fieldhand.cli.outputs import to_file
 
 
-@grouped("request site robot planner output picture answer assume transcript lenient lang json")
+@grouped(
+    "request site robot planner output picture answer assume transcript lenient"
+    " missions count_simulated recount lang json"
+)
 def plan(
     request: Annotated[str, typer.Argument(help="What the robot should do, in plain words.")],
     place: SiteAndRobotOptions,
     planning: PlanningOptions,
     display: DisplayOptions,
+    earlier: StoredEarlierOptions,
     output: Annotated[
         Path | None, typer.Option("-o", "--output", callback=to_file, help="Where to write the Task (XML).")
     ] = None,
@@ -29,6 +34,7 @@ def plan(
     from fieldhand import mission
     from fieldhand.cli import show
     from fieldhand.cli.asking import Replies, given_words, plan_and_ask
+    from fieldhand.cli.earlier import add_earlier
     from fieldhand.cli.inputs import open_site_and_robot, write_file
     from fieldhand.cli.pictures import draw_question
     from fieldhand.language import message
@@ -50,8 +56,9 @@ def plan(
             show.print_json(show.outcome_record(outcome))
             raise SystemExit(2)
         show.fail_outcome(request, outcome, language)
-    review = mission.review(outcome.task, site_and_robot.site, site_and_robot.robot)
-    document = encode(outcome.task)
+    task, _ = add_earlier(outcome.task, None, site_and_robot, earlier, earlier.missions, display)
+    review = mission.review(task, site_and_robot.site, site_and_robot.robot)
+    document = encode(task)
     if output is not None:
         write_file(output, document)
     if picture is not None:

@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from fieldhand.cli.driver_options import DriverOptions
+from fieldhand.cli.earlier import EarlierOptions
 from fieldhand.cli.option_groups import grouped
 from fieldhand.cli.options import (
     ApprovalOptions,
@@ -36,7 +37,7 @@ class SimulationOptions:
 
 @grouped(
     "request site robot planner world seed events mcap output speed on domain namespace sim_time driver_option"
-    " yes confirm by production no_history answer assume transcript lenient lang missions json"
+    " yes confirm by production no_history answer assume transcript lenient lang missions count_simulated recount json"
 )
 def run(
     request: Annotated[
@@ -50,6 +51,7 @@ def run(
     driver: DriverOptions,
     approval: ApprovalOptions,
     store: StoreOptions,
+    earlier: EarlierOptions,
     display: DisplayOptions,
     no_history: Annotated[
         bool, typer.Option("--no-history", help="Do not record the cost of the mission for fieldhand robot calibrate.")
@@ -72,7 +74,7 @@ def run(
     require_folder(parent, f"--missions {parent}")
     opened = open_inputs(request, inputs, display, production=store.production)
     world = mission.read_world(simulation.world, opened.site_and_robot.site, opened.site_and_robot.robot)
-    draft = draft_mission(request, opened, planning, display)
+    draft = draft_mission(request, opened, planning, display, earlier, parent)
     settings = RunSettings(
         approval=approval,
         display=display,

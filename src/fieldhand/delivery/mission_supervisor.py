@@ -19,6 +19,7 @@ from fieldhand.delivery.received_missions import ReceivedMission
 from fieldhand.delivery.received_status import LoggedEvent, ReceivedState, ReceivedStatus
 from fieldhand.delivery.timetable_keeper import TimetableKeeper
 from fieldhand.errors import ExecutionError, FieldhandError, JournalError, NotTrustedError
+from fieldhand.task.earlier import together, uses_records, with_earlier
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -91,6 +92,7 @@ class MissionSupervisor:
         now: Returns the current time, with time zone; the runs of timetables are due by it.
         zone: Time zone of the robot, for timetables that state none.
         lasts: Returns an upper estimate of the seconds that a mission takes.
+        simulated: Count simulated missions among the earlier ones, as for an agent that simulates all of them.
 
     Attributes:
         timetables: Keeper of the timetables of missions.
@@ -108,6 +110,7 @@ class MissionSupervisor:
         now: Callable[[], datetime] = lambda: datetime.now(UTC),
         zone: tzinfo = UTC,
         lasts: Callable[[Bundle], float] = lambda _: 0.0,
+        simulated: bool = False,
     ) -> None:
         self._mission_store, self._carry, self._world, self._check, self._seed = (
             mission_store,
@@ -116,6 +119,7 @@ class MissionSupervisor:
             check,
             seed,
         )
+        self._now, self._zone, self._simulated = now, zone, simulated
         self.timetables = TimetableKeeper(mission_store, self.begin_run, now=now, zone=zone, lasts=lasts)
         self._conclude = conclude
         self._lock = threading.Lock()
@@ -332,11 +336,34 @@ class MissionSupervisor:
     def _begin(self, received: ReceivedMission) -> None:
         self._require_free(received)
         bundle = self._mission_store.open(received.sha256)
+        if received.run is not None:
+            bundle = self._counted_anew(bundle)
         started_on = self._check(bundle)
         inputs = missions.signed_inputs(bundle, world=self._world, seed=self._seed, started_on=started_on)
         stored = missions.begin(self._mission_store.missions, received.name, inputs)
         self._mission_store.note_begun(received.sha256)
         self._run(received, stored)
+
+    def _counted_anew(self, bundle: Bundle) -> Bundle:
+        """Return a standing mission with the missions that the robot has done by now, if its plan depends on them.
+
+        Raises:
+            TaskError: They are more than a Task can depend on.
+            PlaceError: A period is not a possible one.
+        """
+        task = bundle.authorized.task
+        if not uses_records(task):
+            return bundle
+        own = missions.earlier_missions(
+            bundle.site,
+            self._mission_store.missions,
+            now=self._now(),
+            zone=self._zone,
+            simulated=self._simulated,
+            notice=lambda text: log.warning("%s", text),
+        )
+        counted = with_earlier(task, together(task.earlier, own)).earlier
+        return replace(bundle, site=bundle.site.with_earlier(counted))
 
     def _read(self, received: ReceivedMission) -> missions.StoredMission:
         """Read a mission from its folder, and verify its signature, its key and every file again."""

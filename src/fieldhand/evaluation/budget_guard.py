@@ -165,9 +165,9 @@ class BudgetGuard:
             return Verdict(go=False, reason=self._and_the_battery(decided.why), chance_short=1.0)
         budget, here = self._budget, state.context.here
         leg = budget.length(here, visit.place)
-        way_on = None if ahead is None else route_cost([leg], budget.slower(visit, leg)) + ahead.way
+        way_on = None if ahead is None else route_cost([leg], budget.slower(visit, leg, here)) + ahead.way
         home = budget.length(visit.end, budget.home(visit.end))
-        short = route_cost([leg, home], visit.work + budget.slower(visit, leg))
+        short = route_cost([leg, home], visit.work + budget.slower(visit, leg, here))
         there = budget.chances(short, state)
         on = there if way_on is None else budget.chances(way_on, state)
         lasts = budget.allowance(on).mandatory_fits

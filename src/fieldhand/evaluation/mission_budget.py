@@ -15,9 +15,10 @@ from fieldhand.forecast.distances import Distances
 from fieldhand.forecast.mission_state import MissionState, Visit, Work
 from fieldhand.forecast.recharge_rules import RechargeRules, mission_limits, recharge_rules
 from fieldhand.forecast.remaining_work import RemainingWork, remaining_work_after
-from fieldhand.forecast.resource_limits import ResourceLimit, slower_s_per_m
+from fieldhand.forecast.resource_limits import ResourceLimit, slower_s_per_m, speed_of
 from fieldhand.forecast.risk_allowance import RiskAllowance
 from fieldhand.forecast.route_cost import RouteCost, overrun_chances
+from fieldhand.forecast.slow_ground import slow_ground
 from fieldhand.places.context import Context
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
@@ -50,6 +51,7 @@ class MissionBudget:
         self.drain = BatteryDrain(robot)
         self._blocked = False
         limits = mission_limits(task, site, robot, drives, charge_percent)
+        self._slow = slow_ground(task.constraints, site, robot)
         self.accepted: Floats = np.array([r.failure_probability for r in limits])
         self.distances = Distances(drives)
         self._allowance: RiskAllowance | None = None
@@ -82,10 +84,12 @@ class MissionBudget:
     def resources(self, state: MissionState) -> tuple[ResourceLimit, ...]:
         """Return the current resource limits; the battery's is based on its measured charge.
 
-        While optional visits are chosen inside a pace, all driving is assumed to be as slow: the solver has one speed.
+        While optional visits are chosen inside a pace, or in a mission with slow ground, all driving is assumed to be
+        as slow: the solver has one speed.
         """
         charge = state.charge_percent + state.spent.percent
-        pace = pace_of(state.frames) if state.frames and state.frames[-1].node.is_optional else math.inf
+        chooses = bool(state.frames) and state.frames[-1].node.is_optional
+        pace = min(pace_of(state.frames), self._slow.slowest_m_s) if chooses else math.inf
         return mission_limits(
             self.task,
             self.site,
@@ -102,9 +106,13 @@ class MissionBudget:
         """Return the rules of recharging with the battery as observed; None if the mission does not recharge."""
         return recharge_rules(self.task, self.site, self.robot)
 
-    def slower(self, visit: Visit, metres: float) -> Work:
-        """Return the time that the pace of a visit adds to the drive to it."""
-        return Work(seconds=metres * slower_s_per_m(self.task.constraints, self.robot, visit.pace_m_s))
+    def slower(self, visit: Visit, metres: float, start: Place | None = None) -> Work:
+        """Return the time that the pace of a visit adds to the drive to it, and slow ground on the way from a start."""
+        seconds = metres * slower_s_per_m(self.task.constraints, self.robot, visit.pace_m_s)
+        if self._slow and start is not None and metres:
+            speed = speed_of(self.task.constraints, self.robot, visit.pace_m_s)
+            seconds += self._slow.extra_s(self.drives.between(start, visit.place).points, speed)
+        return Work(seconds=seconds)
 
     def chances(self, way: RouteCost, state: MissionState) -> Floats:
         """Return for each limit the probability that a route takes more than is left."""

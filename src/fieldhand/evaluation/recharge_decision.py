@@ -92,7 +92,7 @@ class RechargeDecider:
         if not all(map(math.isfinite, legs)):
             return False
         limits = resource_limits(budget.task.constraints, robot)[:-1]
-        work = work + visit.work + budget.slower(visit, legs[1])
+        work = work + visit.work + budget.slower(visit, legs[1], rules.charger)
         chances = overrun_chances(route_cost(legs, work), limits, robot, state.spent)
         return all(chance <= limit.failure_probability for chance, limit in zip(chances, limits, strict=True))
 
@@ -115,10 +115,10 @@ class RechargeDecider:
         there, back = self._metres(here, visit.place), self._metres(visit.end, rules.charger)
         needed = math.inf
         if math.isfinite(there + back):
-            way = route_cost([there, back], visit.work + self._budget.slower(visit, there))
+            way = route_cost([there, back], visit.work + self._budget.slower(visit, there, here))
             needed = rules.needed_for(way, charged=charged, docks=True)
         if after is not None and math.isfinite(there):
-            way = route_cost([there], self._budget.slower(visit, there)) + after
+            way = route_cost([there], self._budget.slower(visit, there, here)) + after
             needed = min(needed, rules.needed_for(way, charged=charged))
         return needed
 
@@ -127,7 +127,7 @@ class RechargeDecider:
         there = self._metres(rules.charger, visit.place)
         if not math.isfinite(there):
             return math.inf
-        return rules.needed_for(route_cost([there], self._budget.slower(visit, there)) + after)
+        return rules.needed_for(route_cost([there], self._budget.slower(visit, there, rules.charger)) + after)
 
     def _metres(self, a: Place, b: Place) -> float:
         try:

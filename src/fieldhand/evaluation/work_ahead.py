@@ -84,7 +84,7 @@ class WorkAheadFinder:
         ways = [way]
         for stop, following in reversed(list(itertools.pairwise(stops))):
             metres = budget.length(stop.end, following.place)
-            way = route_cost([metres], stop.work + budget.slower(following, metres)) + way
+            way = route_cost([metres], stop.work + budget.slower(following, metres, stop.end)) + way
             ways.append(way)
         known = _Loop(node=state.node, stops=(*stops, *_visits(rest)), ways=tuple(reversed(ways)))
         if rest.fixed:

@@ -28,6 +28,7 @@ from fieldhand.forecast.mission_state import MissionState, Spent
 from fieldhand.forecast.optional_visits import OptionalVisits
 from fieldhand.forecast.recharge_rules import charge_target, charger_of
 from fieldhand.forecast.resource_limits import speed_of
+from fieldhand.forecast.slow_ground import slow_ground
 from fieldhand.forecast.visit_order import start_place
 from fieldhand.forecast.working import amount_of, end_of, use_of, working_speed
 from fieldhand.places.context import Context
@@ -82,6 +83,7 @@ class ActiveMission:
         drives: Drives between places.
 
     Attributes:
+        slow: Ground on which the robot drives slowly.
         controller: Carries out the current goal.
         guard: The budget guard.
         clock: Mission clock.
@@ -120,6 +122,7 @@ class ActiveMission:
         self.inputs = inputs
         self.guard: Guard = inputs
         self.clock: Clock = inputs
+        self.slow = slow_ground(task.constraints, site, robot)
         self.controller = DriveController(
             inputs,
             site,
@@ -128,6 +131,7 @@ class ActiveMission:
             speed=self._speed_m_s,
             on_restart=self._restarted,
             on_doubt=self._in_doubt,
+            slow=self.slow,
         )
         self.blockages = Blockages(drives)
         self._begun_s = self.clock.now()
@@ -341,7 +345,7 @@ class ActiveMission:
             DriveFault, PlaceError: There is no way to the place.
         """
         goal = drive_goal(self.site, self.way_to(place), self._speed_m_s())
-        self._emit_driving(node, goal)
+        self._emit_driving(node, dataclasses.replace(goal, speed_m_s=self.controller.first_speed_m_s(goal)))
         self._open = OpenDrive(node=node, goal=goal)
         self.controller.start(goal)
 
@@ -362,7 +366,7 @@ class ActiveMission:
             ),
         )
         self._open = OpenStretch(node=node.id, goal=goal, work=node, stretch=stretch, number=number)
-        self._emit_working(self._open, goal)
+        self._emit_working(self._open, dataclasses.replace(goal, speed_m_s=self.controller.first_speed_m_s(goal)))
         self.controller.start(goal)
 
     def _parameters(self, node: WorkAlong) -> Mapping[str, str | float]:
@@ -375,7 +379,7 @@ class ActiveMission:
         done = open_.done(self.controller.reached_m) if isinstance(open_, OpenStretch) else None
         if done is None or not isinstance(open_, OpenStretch):
             return 0.0
-        return use_of(done, open_.work, self.task.constraints, self.robot).implement_j
+        return use_of(done, open_.work, self.task.constraints, self.robot, self.slow).implement_j
 
     def _emit_working(self, open_: OpenStretch, goal: DriveGoal) -> None:
         """Record the start of work along a stretch, or along the rest of it."""
@@ -402,7 +406,7 @@ class ActiveMission:
         node, done = open_.work, open_.done(self.controller.reached_m)
         if succeeded:
             done = open_.stretch
-        use = None if done is None else use_of(done, node, self.task.constraints, self.robot)
+        use = None if done is None else use_of(done, node, self.task.constraints, self.robot, self.slow)
         on_m = 0.0 if use is None else use.on_m
         amount = amount_of(node, self.robot, on_m) if node.action else None
         worked = () if done is None or not node.action else pieces(done.points, done.on)

@@ -1,6 +1,7 @@
 """Goals that outlast a pause and a power cut.
 
-An interrupted drive is resumed from where the robot then stands. A pause never interrupts a capture: the robot stops
+An interrupted drive is resumed from where the robot then stands. Where the speed limit changes on the way, the drive is
+continued with another goal of the driver, so any driver obeys it. A pause never interrupts a capture: the robot stops
 once it is made. A capture interrupted by a power cut is in doubt, and the profile decides what is done about it.
 """
 
@@ -13,6 +14,7 @@ from collections.abc import Callable
 from fieldhand.errors import FieldhandError, OutputError
 from fieldhand.execution.drivers.protocol import AT_M, ActionGoal, DriveGoal, Progress
 from fieldhand.execution.recorded_inputs import RecordedInputs
+from fieldhand.forecast.slow_ground import NO_SLOW_GROUND, SlowGround, rests
 from fieldhand.robot.model import InDoubtPolicy, RobotProfile
 from fieldhand.site.drives import Drive, Drives
 from fieldhand.site.model import Place, Site
@@ -34,9 +36,11 @@ class DriveController:
         speed: Returns the speed limit of a drive that begins now, in m/s.
         on_restart: Called before a drive continues an interrupted one.
         on_doubt: Called for each capture in doubt with the chosen policy and its progress.
+        slow: Ground on which the robot drives slowly.
 
     Attributes:
         paused: True while nothing new begins and the robot stands still.
+        limit_m_s: Highest speed at the moment, whatever the goals say; infinite without a limit.
         reached_m: Distance along the path of the current or last stretch up to which it was driven.
     """
 
@@ -50,10 +54,15 @@ class DriveController:
         speed: Callable[[], float],
         on_restart: Callable[[DriveGoal], None],
         on_doubt: Callable[[ActionGoal, InDoubtPolicy, Progress], None],
+        slow: SlowGround = NO_SLOW_GROUND,
     ) -> None:
         self.paused = False
         self._inputs, self._site, self._robot, self._ways, self._speed = inputs, site, robot, ways, speed
         self._on_restart, self._on_doubt = on_restart, on_doubt
+        self._slow, self.limit_m_s = slow, math.inf
+        #: The part of a drive that is under way without the limit of the moment, and what follows it.
+        self._part: DriveGoal | None = None
+        self._rest: DriveGoal | None = None
         self._goal: DriveGoal | ActionGoal | None = None
         self._under_way = False
         self._approaching = False
@@ -69,7 +78,7 @@ class DriveController:
         """Begin a goal, after the pause if the mission is paused."""
         self._goal, self._result, self._before = goal, None, Progress(state="running")
         self._under_way = self._cancelled = False
-        self.reached_m = 0.0
+        self.reached_m, self._rest = 0.0, None
         if not self.paused:
             self._begin()
 
@@ -98,6 +107,20 @@ class DriveController:
         if self._under_way:
             self._inputs.cancel()
 
+    def limit(self, speed_m_s: float) -> None:
+        """Drive no faster than this from now on; a drive under way that this changes is continued at the new speed."""
+        before, self.limit_m_s = self.limit_m_s, speed_m_s
+        if not self._under_way or self._part is None or self._broken_off or self._cancelled:
+            return
+        full = self._part.speed_m_s
+        if min(full, before) != min(full, speed_m_s) and not self._inputs.observation.progress.over:
+            self._broken_off = True
+            self._inputs.cancel()
+
+    def first_speed_m_s(self, goal: DriveGoal) -> float:
+        """Return the speed with which a drive begins."""
+        return min(self._first_part(goal)[0].speed_m_s, self.limit_m_s)
+
     # --- pause ---------------------------------------------------------------------------------------------------
 
     def pause(self) -> None:
@@ -119,13 +142,24 @@ class DriveController:
 
     def _begin(self) -> None:
         """Start the goal, or what is left of it."""
-        goal = self._goal
-        self._broken_off = self._approaching = False
+        goal, rest = self._goal, self._rest
+        self._broken_off, self._part, self._rest = False, None, None
+        works = isinstance(goal, DriveGoal) and goal.work is not None
         try:
+            if (
+                rest is not None
+                and goal is not None
+                and (self._approaching or not works)
+                and self._is_at(rest.path_m[0])
+            ):
+                self._drive(rest, goal)
+                self._under_way = True
+                return
+            self._approaching = False
             if isinstance(goal, DriveGoal) and goal.work is not None:
                 self._begin_stretch(goal)
             elif isinstance(goal, DriveGoal):
-                begins_here = math.dist(self._inputs.observation.position.xy, goal.path_m[0]) <= AT_M
+                begins_here = self._is_at(goal.path_m[0])
                 self._drive(goal if begins_here else self._way_to(goal.place, goal.speed_m_s), goal)
             elif goal is not None:
                 self._strayed = self._strayed and not self._inputs.observation.position.is_at(goal.place)
@@ -142,17 +176,36 @@ class DriveController:
         self._under_way = True
 
     def _drive(self, way: DriveGoal, goal: DriveGoal | ActionGoal) -> None:
+        """Start a way, or its first part if the speed changes on it."""
+        part, self._rest = self._first_part(way)
+        self._part, speed = part, min(part.speed_m_s, self.limit_m_s)
         if way is not goal:
-            self._on_restart(way)
-        self._inputs.start(way)
+            self._on_restart(dataclasses.replace(way, speed_m_s=speed))
+        self._inputs.start(dataclasses.replace(part, speed_m_s=speed) if speed != part.speed_m_s else part)
+
+    def _first_part(self, way: DriveGoal) -> tuple[DriveGoal, DriveGoal | None]:
+        """Return the part of a way up to where slow ground changes the speed, and the rest."""
+        parts = self._slow.pieces(way.path_m, way.length_m, way.speed_m_s) if self._slow else ()
+        if len(parts) < 2:
+            return (dataclasses.replace(way, speed_m_s=parts[0].speed_m_s) if parts else way), None
+        return cut_way(self._site, way, parts[0].to_m, parts[0].speed_m_s)
+
+    def _is_at(self, xy: tuple[float, float]) -> bool:
+        return math.dist(self._inputs.observation.position.xy, xy) <= AT_M
 
     def _conclude(self, goal: DriveGoal | ActionGoal, progress: Progress) -> None:
         """Conclude the mission's goal, or prepare its next part, after a driver goal has ended."""
         no_more = self._cancelled or self._inputs.observation.stopped is not None
         cut = progress.state == "cut_off"
+        if progress.state != "succeeded":
+            self._rest = None
         if not cut or self._harmful(goal):
             self._track(progress)
-        if isinstance(goal, ActionGoal) and not self._approaching:
+        if self._rest is not None and no_more:
+            self._end(dataclasses.replace(progress, state="cancelled"))
+        elif self._rest is not None:
+            self._before = self._sum(progress)
+        elif isinstance(goal, ActionGoal) and not self._approaching:
             if not cut:
                 self._end(progress)
                 return
@@ -177,7 +230,7 @@ class DriveController:
     def _begin_stretch(self, goal: DriveGoal) -> None:
         """Start what is left of a stretch, after a drive to where it begins if the robot is elsewhere."""
         rest = rest_of(self._site, goal, self.reached_m)
-        begins_here = math.dist(self._inputs.observation.position.xy, rest.path_m[0]) <= AT_M
+        begins_here = self._is_at(rest.path_m[0])
         self._approaching = not begins_here
         if begins_here:
             self._part_from_m = self.reached_m
@@ -198,7 +251,8 @@ class DriveController:
         if not isinstance(goal, DriveGoal) or goal.work is None or self._approaching:
             return
         if progress.state == "succeeded":
-            self.reached_m = goal.length_m
+            worked_m = goal.length_m if self._rest is None or self._part is None else self._part.length_m
+            self.reached_m = min(goal.length_m, self._part_from_m + worked_m)
             return
         path, at = Stretch(name="", points=goal.path_m, on=()), self._inputs.observation.position.xy
         if path.away_m(at) > _OFF_M:
@@ -243,6 +297,31 @@ def rest_of(site: Site, goal: DriveGoal, from_m: float) -> DriveGoal:
         path_degrees=site.projection.lat_lon(rest.points),
         length_m=rest.length_m,
         work=dataclasses.replace(work, on=rest.on),
+    )
+
+
+def cut_way(site: Site, way: DriveGoal, at_m: float, speed_m_s: float) -> tuple[DriveGoal, DriveGoal]:
+    """Return the part of a way up to a distance along it, with a speed of its own, and the rest."""
+    whole = Stretch(name=way.place.id, points=way.path_m, on=() if way.work is None else way.work.on)
+    first = whole.part(0.0, at_m)
+    rest = rests(way.path_m, at_m)
+    if first is None:  # pragma: no cover  pieces are longer
+        return way, way
+    degrees = site.projection.lat_lon(first.points)
+    lat, lon = degrees[-1]
+    return (
+        dataclasses.replace(
+            way,
+            place=Place.of_robot(first.points[-1], lat=lat, lon=lon, name=way.place.id),
+            path_m=first.points,
+            path_degrees=degrees,
+            length_m=first.length_m,
+            speed_m_s=speed_m_s,
+            work=None if way.work is None else dataclasses.replace(way.work, on=first.on),
+        ),
+        dataclasses.replace(
+            way, path_m=rest, path_degrees=site.projection.lat_lon(rest), length_m=max(0.0, way.length_m - at_m)
+        ),
     )
 
 

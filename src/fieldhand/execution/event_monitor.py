@@ -7,12 +7,14 @@ robot arrives there.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from fieldhand.execution.active_mission import ActiveMission
+from fieldhand.task.plan import actions_of
 from fieldhand.task.results import Acted, EventBegan, EventEnded
-from fieldhand.task.watches import PRIORITY, EventBeyond, EventHolds, ReadingBeyond, Watch, exceeds
-from fieldhand.wording.watches import say_held, say_watched
+from fieldhand.task.watches import PRIORITY, EventAbsent, EventBeyond, EventHolds, ReadingBeyond, Watch, exceeds
+from fieldhand.wording.watches import say_held, say_watched, slow_limit_m_s
 
 
 @dataclass(kw_only=True)
@@ -80,6 +82,12 @@ class EventMonitor:
         found = [s for s in self._states if s.began_s is not None and self._is_due(s, visiting, arrived)]
         return min(found, key=lambda s: PRIORITY.index(s.watch.response), default=None)
 
+    @property
+    def speed_m_s(self) -> float:
+        """The highest driving speed that the conditions which hold now allow; infinite without one."""
+        slow = (s.watch for s in self._states if s.began_s is not None and s.watch.response == "slow")
+        return min((slow_limit_m_s(watch, self._mission.robot) for watch in slow), default=math.inf)
+
     def holds(self, state: WatchState) -> bool:
         """Return True while a watched condition counts as holding."""
         return state.began_s is not None
@@ -91,22 +99,35 @@ class EventMonitor:
 
     @staticmethod
     def _is_due(state: WatchState, visiting: bool, arrived: bool) -> bool:
+        if state.watch.response not in PRIORITY:
+            return False
         if state.skips:
             return visiting and (arrived or not state.answered)
         return not state.answered
 
     def _test(self, watch: Watch) -> tuple[bool, float | None]:
-        """Return whether the condition of a watch holds now, and the value."""
+        """Return whether the condition of a watch holds now, and the value; outside of its part it does not."""
+        if watch.during and not self._is_under_way(watch.during):
+            return False, None
         match watch.condition:
             case EventHolds(event=name):
                 value, event = self._mission.observation.events.get(name), self._mission.robot.event[name]
                 return (event.unless_heard == "holds" if value is None else event.holds(value)), value
+            case EventAbsent(event=name):
+                value, event = self._mission.observation.events.get(name), self._mission.robot.event[name]
+                return (event.unless_heard == "holds" if value is None else not event.holds(value)), value
             case EventBeyond(event=name, test=test, value=limit):
                 value, event = self._mission.observation.events.get(name), self._mission.robot.event[name]
                 return (event.unless_heard == "holds" if value is None else exceeds(test, value, limit)), value
             case ReadingBeyond(quantity=quantity, test=test, value=limit):
                 value = self._readings.get(quantity)
                 return value is not None and exceeds(test, value, limit), value
+
+    def _is_under_way(self, action: str) -> bool:
+        """Return True while a step that does an action is under way, or a loop around such steps."""
+        nodes = (frame.node for frame in self._mission.run.frames)
+        parts = (n for n in nodes if n.visits_each or n.rounds is not None or n.act is not None or n.work is not None)
+        return any(action in actions_of(part) for part in parts)
 
     def _note_readings(self) -> None:
         """Take the readings of the captures since the last check."""
@@ -149,7 +170,7 @@ class EventMonitor:
                 name=_name(watch),
                 response=watch.response,
                 value=value,
-                unit="" if isinstance(watch.condition, EventHolds) else watch.condition.unit,
+                unit="" if isinstance(watch.condition, EventHolds | EventAbsent) else watch.condition.unit,
                 what=state.why,
                 lat=at.lat,
                 lon=at.lon,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from fieldhand.errors import BlockedFault
+from fieldhand.errors import BlockedFault, NoPlaceError
 from fieldhand.execution.active_mission import ActiveMission
 from fieldhand.execution.docking import ChargeFirst
 from fieldhand.execution.obstacles import cut_off_places
@@ -15,6 +15,7 @@ from fieldhand.forecast.visit_order import home_if_last, order_visits, reachable
 from fieldhand.language import message
 from fieldhand.language.words import listed
 from fieldhand.site.model import Place, Site
+from fieldhand.task.earlier import may_have_none
 from fieldhand.task.plan import ForEach
 from fieldhand.task.results import Visiting
 
@@ -66,7 +67,12 @@ class ForEachVisits:
         self._made = 0
         self._why = ""
         self._ways = mission.blockages.version
-        places = mission.resolve(node.select)
+        try:
+            places = mission.resolve(node.select)
+        except NoPlaceError:
+            if not may_have_none(mission.task, node.select):
+                raise
+            places = ()
         closed: tuple[Place, ...] = ()
         cut_off: tuple[Place, ...] = ()
         if node.optional:

@@ -72,6 +72,7 @@ class LimitMonitor:
         self._reach_m = 0.0
         self._levels = levels_of(mission.task.constraints, mission.robot)
         self._crossed: set[LimitLevel] = set()
+        self._slow_s: tuple[tuple[tuple[float, float], ...], float, float] | None = None
         self._homes: dict[bool, tuple[tuple[tuple[float, float], ...], float, float]] = {}
         self._foreseen: set[Phase] = set()
         self._fastest = fastest_drain(mission.robot)
@@ -334,12 +335,40 @@ class LimitMonitor:
             if rest is None:
                 return Work()
             # The metres themselves are those of the current drive.
-            return replace(use_of(rest, doing.work, constraints, robot).work(speed_of(constraints, robot)), metres=0.0)
+            use = use_of(rest, doing.work, constraints, robot, self._mission.slow)
+            work = replace(use.work(speed_of(constraints, robot)), metres=0.0)
+            return work + Work(seconds=self._slow_ground_s(0.0, doing))
         if isinstance(doing, OpenDrive):
-            return Work(seconds=on_m * slower_s_per_m(constraints, robot, doing.goal.speed_m_s))
+            slower = slower_s_per_m(constraints, robot, min(doing.goal.speed_m_s, self._mission.controller.limit_m_s))
+            return Work(seconds=on_m * slower + self._slow_ground_s(on_m, doing))
         action = self._mission.robot.action[doing.action]
         left = max(0.0, 1.0 - self._mission.controller.poll().seconds / action.duration_s)
         return Work(seconds=left * action.duration_s, joules=left * action.energy_j)
+
+    def _slow_ground_s(self, on_m: float, doing: OpenDrive) -> float:
+        """Return the seconds that slow ground adds to the metres left of a drive, and to the way home from its end."""
+        mission = self._mission
+        if not mission.slow or len(mission.driven) < 2:
+            return 0.0
+        speed = speed_of(mission.task.constraints, mission.robot)
+        if self._slow_s is None or self._slow_s[0] is not mission.driven:
+            whole_m = LineString(mission.driven).length
+            here_s = mission.slow.extra_s(mission.driven, min(speed, doing.goal.speed_m_s))
+            self._slow_s = (
+                mission.driven,
+                here_s / whole_m if whole_m else 0.0,
+                self._slow_home_s(doing.goal.place, speed),
+            )
+        _, per_metre, home_s = self._slow_s
+        return on_m * per_metre + (0.0 if self.phase == "exit" else home_s)
+
+    def _slow_home_s(self, at: Place, speed_m_s: float) -> float:
+        mission = self._mission
+        home = mission.site.home(mission.exit_for("low_budget"), at)
+        try:
+            return 0.0 if home.xy == at.xy else mission.slow.extra_s(mission.drives.between(at, home).points, speed_m_s)
+        except DriveFault:
+            return 0.0
 
 
 def _point(site: Site, xy: tuple[float, float]) -> Place:

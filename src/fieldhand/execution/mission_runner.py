@@ -361,6 +361,7 @@ class MissionRunner:
         """Check the limits and the events."""
         self.monitor.look()
         self.events.look()
+        self.mission.controller.limit(self.events.speed_m_s)
 
     # --- exit ----------------------------------------------------------------------------------------------------
 

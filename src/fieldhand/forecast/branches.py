@@ -23,6 +23,7 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.short_repr import short_repr
 from fieldhand.site.model import Site
 from fieldhand.task import plan
+from fieldhand.task.earlier import site_of_run
 from fieldhand.task.frames import Task
 
 if TYPE_CHECKING:
@@ -112,6 +113,7 @@ def branches(
     Raises:
         TaskError: A walk exceeds the maximum number of nodes.
     """
+    site = site_of_run(task, site)
     ways = drives or visit_order.drives_for(site, robot, task.constraints)
     outcomes = ConditionOutcomes(task.composition.plan, site, robot)
     kept: dict[object, ExpectedVisits] = {}

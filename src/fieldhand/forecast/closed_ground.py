@@ -54,29 +54,40 @@ def avoided(avoid: Avoid, drives: Drives) -> ClosedGround:
     Raises:
         PlaceError: As :func:`closed_ground`.
     """
+    return ground_of(avoid.places, avoid.distance_m, drives)
+
+
+def ground_of(places: Selector, distance_m: float, drives: Drives) -> ClosedGround:
+    """Return the ground of places, or within a distance of them, with the rule that closes it.
+
+    Raises:
+        PlaceError: As :func:`closed_ground`.
+    """
     from fieldhand.site.closed_ground import ClosedGround, at_distance
 
-    places = avoid.places
     if places.relative:
         raise PlaceError(
             message("what is avoided depends on where the robot is: {places}", places=say_avoided(places)),
             advice=message("name rows, a zone, a marker or a tree"),
         )
-    shape, trees = _shape(places, avoid.distance_m, drives)
-    metres = avoid.distance_m + _margin_m(places)
+    shape, trees = _shape(places, distance_m, drives)
+    metres = distance_m + _margin_m(places)
     if not metres:
         inside = message("in {place}", place=say_avoided(places))
     else:
         inside = message("within {distance} m of {place}", distance=say_number(metres), place=say_avoided(places))
-    return ClosedGround(rule=say_avoidance(avoid), inside=inside, shape=at_distance(shape, metres), trees=trees)
+    return ClosedGround(rule=_rule(places, metres), inside=inside, shape=at_distance(shape, metres), trees=trees)
 
 
 def say_avoidance(avoid: Avoid) -> str:
     """Return an avoidance in words that follow "must": "keep out of row 10", "keep 5 m from the pond"."""
-    metres = avoid.distance_m + _margin_m(avoid.places)
+    return _rule(avoid.places, avoid.distance_m + _margin_m(avoid.places))
+
+
+def _rule(places: Selector, metres: float) -> str:
     if not metres:
-        return message("keep out of {place}", place=say_avoided(avoid.places))
-    return message("keep {distance} m from {place}", distance=say_number(metres), place=say_avoided(avoid.places))
+        return message("keep out of {place}", place=say_avoided(places))
+    return message("keep {distance} m from {place}", distance=say_number(metres), place=say_avoided(places))
 
 
 def say_avoided(places: Selector) -> str:

@@ -18,7 +18,9 @@ from fieldhand.language import message
 from fieldhand.language.words import say_rounded
 from fieldhand.robot.model import RobotProfile
 from fieldhand.short_repr import short_repr
+from fieldhand.site.earlier_missions import EarlierMissions
 from fieldhand.site.model import Site
+from fieldhand.task.earlier import site_of_run
 from fieldhand.task.frames import Task
 from fieldhand.task.plan import InOrder, Node
 
@@ -96,7 +98,7 @@ class _CachedBranches:
     """Cache of the branches last explored on a site: approval needs those that were shown with the plan."""
 
     robot: RobotProfile
-    asked: tuple[Task, int, float, int]
+    asked: tuple[Task, int, float, int, EarlierMissions | None]
     explored: Branches
     leg_costs: LegCostSamples
     estimate: Estimate | None = None
@@ -112,7 +114,7 @@ def explore(
 def _explored(
     task: Task, site: Site, robot: RobotProfile, seed: int, charge_percent: float, draws: int
 ) -> _CachedBranches:
-    asked = (task, seed, charge_percent, draws)
+    asked = (task, seed, charge_percent, draws, site.earlier)
     kept = site.cache.get("estimate")
     if isinstance(kept, _CachedBranches) and kept.robot is robot and kept.asked == asked:
         return kept
@@ -147,6 +149,7 @@ def estimate(
         DriveFault: A place cannot be reached.
         TaskError: A branch exceeds the maximum number of nodes.
     """
+    site = site_of_run(task, site)
     kept = _explored(task, site, robot, seed, charge_percent, draws)
     if kept.estimate is not None:
         return kept.estimate

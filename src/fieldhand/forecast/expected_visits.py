@@ -133,7 +133,7 @@ def _several(
 
     robot = walker.robot
     resources = mission_limits(
-        walker.task, walker.site, robot, walker.drives, walker.charge_percent, pace_m_s=walker.plan.pace_m_s
+        walker.task, walker.site, robot, walker.drives, walker.charge_percent, pace_m_s=walker.choosing_pace_m_s
     )
     problem = visits_problem(
         legs=visit_distances(walker.context.here, visits, rest, walker.drives),
@@ -160,7 +160,7 @@ def _one(
     there = _length(walker, here, visit.place)
     back, home = (0.0 if rest.first is None else _length(walker, at, rest.first) for at in (visit.end, here))
     resources = mission_limits(
-        walker.task, walker.site, walker.robot, walker.drives, walker.charge_percent, pace_m_s=walker.plan.pace_m_s
+        walker.task, walker.site, walker.robot, walker.drives, walker.charge_percent, pace_m_s=walker.choosing_pace_m_s
     )
     with_it, without = (
         overrun_chances(way + rest.way, resources, walker.robot, walker.spent, used)

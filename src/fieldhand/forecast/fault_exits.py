@@ -13,6 +13,7 @@ from fieldhand.forecast.mission_state import Work
 from fieldhand.forecast.resource_limits import speed_of
 from fieldhand.forecast.sampled_costs import LegCostSamples, MissionSamples
 from fieldhand.forecast.service import retry_work
+from fieldhand.forecast.slow_ground import slow_ground
 from fieldhand.forecast.walk_steps import Decision, Walk, WalkStep
 from fieldhand.robot.model import RobotProfile
 from fieldhand.short_repr import short_repr
@@ -63,6 +64,7 @@ def fault_exits(
     then = {fault: exit_of(task, fault) for fault in _FAULTS}
     homes = {f: site.home(t, site.start) for f, t in then.items() if t != "stay"}
     stops = _stops((*walks, *optional_walks))
+    slow = slow_ground(task.constraints, site, robot)
     distinct = {s.places[0].stand or s.places[0].xy: s for s in stops.values()}
     ways_home: dict[tuple[object, object], WalkStep] = {}
     broken: dict[tuple[object, object], tuple[Place, Place, DriveFault]] = {}
@@ -81,8 +83,10 @@ def fault_exits(
             except DriveFault as error:
                 broken[stand, home.xy] = (place, home, error)
             else:
+                added_s = slow.extra_s(drive.points, speed_of(task.constraints, robot)) if slow else 0.0
+                slower = added_s / drive.length_m if drive.length_m else 0.0
                 ways_home[stand, home.xy] = replace(
-                    step, kind="exit", places=(drive.end,), drive=drive, slower_s_per_m=0.0
+                    step, kind="exit", places=(drive.end,), drive=drive, slower_s_per_m=slower
                 )
     faults = [f for f in homes if f != "low_budget"]
     worst = [(f, _longest(f, homes[f], walks, stops, ways_home, task, robot, leg_costs)) for f in faults]

@@ -18,6 +18,7 @@ from fieldhand.forecast.mission_state import Visit, Work
 from fieldhand.forecast.request_handler import ForecastHandler
 from fieldhand.forecast.resource_limits import slower_s_per_m, speed_of
 from fieldhand.forecast.route_cost import RouteCost, route_cost
+from fieldhand.forecast.slow_ground import slow_ground
 from fieldhand.forecast.walk_state import Answers
 from fieldhand.forecast.walk_steps import NodeAnswer, never
 from fieldhand.places.context import Context
@@ -88,7 +89,17 @@ def remaining_work_after(
     rest = _most(task, site, robot, drives, following(frames), arrived(context, to_come))
     if not to_come:
         return rest
-    return _joined(to_come, rest, drives, lambda pace: slower_s_per_m(task.constraints, robot, pace))
+    slow = slow_ground(task.constraints, site, robot)
+
+    def added_s(a: Place, b: Visit, metres: float) -> float:
+        """Return the seconds that the pace of a visit and slow ground add to a leg."""
+        seconds = metres * slower_s_per_m(task.constraints, robot, b.pace_m_s)
+        if slow and metres:
+            speed = speed_of(task.constraints, robot, b.pace_m_s)
+            seconds += slow.extra_s(drives.between(a, b.place).points, speed)
+        return seconds
+
+    return _joined(to_come, rest, drives, added_s)
 
 
 def whole_mission_work(task: Task, site: Site, robot: RobotProfile, drives: Drives, context: Context) -> RemainingWork:
@@ -144,11 +155,11 @@ def arrived(context: Context, visits: Sequence[Visit]) -> Context:
 
 
 def _joined(
-    visits: Sequence[Visit], rest: RemainingWork, drives: Drives, slower: Callable[[float], float]
+    visits: Sequence[Visit], rest: RemainingWork, drives: Drives, added_s: Callable[[Place, Visit, float], float]
 ) -> RemainingWork:
-    """Return given visits followed by the remaining work; ``slower`` gives the seconds per metre that a pace adds."""
+    """Return given visits followed by the remaining work; ``added_s`` gives the seconds that a slower leg adds."""
     legs = [_length(drives, a.end, b.place) for a, b in itertools.pairwise(visits)]
-    added = sum(metres * slower(visit.pace_m_s) for metres, visit in zip(legs, visits[1:], strict=True))
+    added = sum(added_s(a.end, b, metres) for metres, (a, b) in zip(legs, itertools.pairwise(visits), strict=True))
     if rest.first is not None:
         legs.append(_length(drives, visits[-1].end, rest.first))
     return RemainingWork(

@@ -9,7 +9,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal, Protocol
 
-from fieldhand.errors import PlaceError, TaskError
+from fieldhand.errors import NoPlaceError, PlaceError, TaskError
 from fieldhand.forecast import visit_order
 from fieldhand.forecast.charge_simulation import charged_use
 from fieldhand.forecast.mission_state import Visit, Work
@@ -26,6 +26,7 @@ from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task import instructions as ask
 from fieldhand.task.build import exit_of
+from fieldhand.task.earlier import may_have_none
 from fieldhand.task.frames import Task
 from fieldhand.task.nodes.base import Failed, Stopped
 from fieldhand.task.plan import Act, ForEach, Node, OptionalStep, Recharge, WorkAlong
@@ -250,7 +251,12 @@ class ForecastHandler(WalkState):
 
     def _begin_visits(self, node: ForEach) -> PlannedVisits:
         """Return the visits of a for-each in visiting order."""
-        places = visit_order.places_of(node, node.select, self.site, self.context)
+        try:
+            places = visit_order.places_of(node, node.select, self.site, self.context)
+        except NoPlaceError:
+            if not may_have_none(self.task, node.select):
+                raise
+            places = ()
         if not node.optional:
             home = visit_order.home_if_last(self.task, self.site, node.id, self.context.here)
             places = visit_order.visits_in_order(node, self.drives, self.context.here, places, home)

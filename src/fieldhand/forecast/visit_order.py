@@ -216,7 +216,7 @@ def at_node(error: PlaceError, node: Node) -> PlaceError:
     if error.where == node.id or error.where.startswith(f"{node.id}, "):
         return error
     where = joined(", ", (node.id, error.where)) if error.where else node.id
-    return PlaceError(error.what, where=where, advice=error.advice)
+    return type(error)(error.what, where=where, advice=error.advice)
 
 
 def ends_plan(root: Node, node_id: str) -> bool:

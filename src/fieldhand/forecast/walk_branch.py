@@ -11,6 +11,7 @@ from fieldhand.forecast.walk_state import Answers, ReadingsAnswer, nothing
 from fieldhand.forecast.walk_steps import NodeAnswer, Walk, never
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
+from fieldhand.task.earlier import site_of_run
 from fieldhand.task.frames import Task
 
 if TYPE_CHECKING:
@@ -46,6 +47,7 @@ def walk_branch(
         DriveFault: A place cannot be reached.
         TaskError: The walk exceeds ``MAX_NODES`` nodes.
     """
+    site = site_of_run(task, site)
     ways = drives or visit_order.drives_for(site, robot, task.constraints)
     walker = ForecastHandler(
         task,

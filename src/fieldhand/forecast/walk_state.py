@@ -12,6 +12,7 @@ from fieldhand.forecast.mission_state import Spent, Work
 from fieldhand.forecast.possible_answers import BranchReadings
 from fieldhand.forecast.resource_limits import slower_s_per_m, speed_of
 from fieldhand.forecast.sampled_costs import MissionSamples, SampledVisits
+from fieldhand.forecast.slow_ground import slow_ground
 from fieldhand.forecast.walk_steps import Decision, DecisionKind, NodeAnswer, StepKind, WalkStep, never
 from fieldhand.forecast.working import end_of, use_of
 from fieldhand.places.context import Context, VisitedIds
@@ -109,6 +110,7 @@ class WalkState:
         #: Position of the robot itself: the current place, or the point where a drive was blocked.
         self._standing = self.context.here
         self._speed = speed_of(task.constraints, robot)
+        self._slow = slow_ground(task.constraints, site, robot)
         self.steps: list[WalkStep] = []
         self.decisions: list[Decision] = []
         #: Tests of readings that were not taken: node id and reading.
@@ -159,7 +161,7 @@ class WalkState:
         self._stand(replace(self.context, here=end, visited=self._visited))
 
     def _stretch_step(self, node: WorkAlong, stretch: Stretch, end: Place, *, reached: bool = True) -> WalkStep:
-        use = use_of(stretch, node, self.task.constraints, self.robot)
+        use = use_of(stretch, node, self.task.constraints, self.robot, self._slow)
         return WalkStep(
             node=node,
             kind="work",
@@ -190,6 +192,11 @@ class WalkState:
         return slower_s_per_m(self.task.constraints, self.robot, self.plan.pace_m_s)
 
     @property
+    def choosing_pace_m_s(self) -> float:
+        """Return the speed at which optional visits are chosen: all driving counts as slow as its slowest part."""
+        return min(self.plan.pace_m_s, self._slow.slowest_m_s)
+
+    @property
     def _stuck(self) -> bool:
         return self._standing is not self.context.here
 
@@ -200,6 +207,8 @@ class WalkState:
         self.bound_for = node.id
         drive = self.drives.between(self._standing, place)
         slower = 0.0 if kind == "exit" else self.slower_s_per_m
+        if self._slow and drive.length_m:
+            slower += self._slow.extra_s(drive.points, 1.0 / (1.0 / self._speed + slower)) / drive.length_m
         return WalkStep(
             node=node,
             kind=kind,
@@ -256,7 +265,8 @@ class WalkState:
     def sample_visits(self, preview: Preview, works: Sequence[Work]) -> None:
         """Add the optional visits of each sampled mission."""
         if self.samples is not None:
-            visits = SampledVisits(preview=preview, works=tuple(works), slower_s_per_m=self.slower_s_per_m)
+            slower = slower_s_per_m(self.task.constraints, self.robot, self.choosing_pace_m_s)
+            visits = SampledVisits(preview=preview, works=tuple(works), slower_s_per_m=slower)
             self.samples.visit(visits)
             self.sampled.append(visits)
 

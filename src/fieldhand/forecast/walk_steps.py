@@ -78,7 +78,8 @@ class WalkStep:
         captures: Number of captures of an act.
         seconds, joules: Mean time in seconds and energy in joules of the step; energy without idle power.
         answer: Answer of a decision.
-        slower_s_per_m: Seconds per metre of a drive that the pace of its part of the plan adds to those of the mission.
+        slower_s_per_m: Seconds per metre of a drive that the pace of its part of the plan and slow ground add to those
+            of the mission.
         reached: False for a drive that is blocked just before its end.
         stretch: Stretch of work along a path.
         work: Use of a stretch in the form of work, whose metres are driven at the mission's speed.

@@ -12,6 +12,7 @@ from fieldhand.errors import PlaceError
 from fieldhand.forecast import visit_order
 from fieldhand.forecast.mission_state import Visit, Work
 from fieldhand.forecast.resource_limits import speed_of
+from fieldhand.forecast.slow_ground import NO_SLOW_GROUND, SlowGround, slow_ground
 from fieldhand.language import message
 from fieldhand.places.context import Context
 from fieldhand.places.resolution import Resolution
@@ -21,7 +22,7 @@ from fieldhand.site.model import Place, Site
 from fieldhand.site.working.areas import AreaWork, area_work, headland_units, perimeter_units
 from fieldhand.site.working.heading import LANE_BEARINGS, headed
 from fieldhand.site.working.order import in_order
-from fieldhand.site.working.stretch import Stretch
+from fieldhand.site.working.stretch import Stretch, total_m, within
 from fieldhand.site.working.units import AisleWork, RowWork, WorkUnit, aisle_units, row_units
 from fieldhand.task.frames import Constraints, Task
 from fieldhand.task.nodes.work_along import WorkAlong
@@ -88,15 +89,30 @@ def working_speed(node: WorkAlong, constraints: Constraints, robot: RobotProfile
     return speed if implement is None else min(speed, implement.speed_m_s)
 
 
-def use_of(stretch: Stretch, node: WorkAlong, constraints: Constraints, robot: RobotProfile) -> StretchUse:
-    """Return the resources used by a stretch. Its costs are not random: the robot follows a given path."""
+def use_of(
+    stretch: Stretch,
+    node: WorkAlong,
+    constraints: Constraints,
+    robot: RobotProfile,
+    slow: SlowGround = NO_SLOW_GROUND,
+) -> StretchUse:
+    """Return the resources used by a stretch. Its costs are not random: the robot follows a given path.
+
+    Where slow ground changes the speed, the implement is switched off and on again.
+    """
     implement, speed = implement_of(node, robot), working_speed(node, constraints, robot)
     on_m = stretch.on_m if implement is not None else 0.0
-    delay = 0.0 if implement is None or not on_m else implement.on_delay_s
+    parts = slow.pieces(stretch.points, stretch.length_m, speed)
+    seconds = on_s = delay = 0.0
+    for part in parts:
+        on_part_m = total_m(within(stretch.on, part.from_m, part.to_m)) if on_m else 0.0
+        seconds += (part.to_m - part.from_m) / part.speed_m_s
+        on_s += on_part_m / part.speed_m_s
+        delay += implement.on_delay_s if implement is not None and on_part_m else 0.0
     return StretchUse(
         metres=stretch.length_m,
-        seconds=stretch.length_m / speed + delay,
-        implement_j=0.0 if implement is None else implement.power_w * (on_m / speed + delay),
+        seconds=seconds + delay,
+        implement_j=0.0 if implement is None else implement.power_w * (on_s + delay),
         on_m=on_m,
         area_m2=on_m * (0.0 if implement is None else implement.width_m or 0.0),
     )
@@ -127,7 +143,8 @@ def end_of(stretch: Stretch, site: Site) -> Place:
 
 def visit_of(stretch: Stretch, node: WorkAlong, task: Task, site: Site, robot: RobotProfile) -> Visit:
     """Return a stretch in the form that guard and solver expect."""
-    work = use_of(stretch, node, task.constraints, robot).work(speed_of(task.constraints, robot))
+    use = use_of(stretch, node, task.constraints, robot, slow_ground(task.constraints, site, robot))
+    work = use.work(speed_of(task.constraints, robot))
     return Visit(
         place=begin_of(stretch, site),
         service_s=work.seconds,
@@ -159,7 +176,7 @@ def stretches_of(
     ids = tuple(place.id for place in places)
     kept = drives.site.cache.setdefault("stretches", {})
     assert isinstance(kept, dict)  # noqa: S101  nobody else keeps anything there
-    key = (node, ids, robot.sha256, here, end, id(drives))
+    key = (node, ids, robot.sha256, here, end, id(drives), None if by_rows else site.earlier)
     if key not in kept:
         while len(kept) >= _KEPT:
             del kept[next(iter(kept))]

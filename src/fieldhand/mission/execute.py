@@ -12,6 +12,7 @@ from fieldhand.mission.run import Run
 from fieldhand.mission.seeds import checked_seed
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
+from fieldhand.task.earlier import site_of_run
 
 if TYPE_CHECKING:
     from fieldhand.execution.drivers.simulation.world import World
@@ -91,7 +92,8 @@ def carry_out(
     from fieldhand.forecast.visit_order import drives_for
 
     seed = checked_seed(seed)
-    site, robot, task = mission.site, mission.robot, mission.task
+    robot, task = mission.robot, mission.task
+    site = site_of_run(task, mission.site)
     if vehicle.robot is not None and vehicle.robot.sha256 != robot.sha256:
         raise NotApprovedError(
             f"the mission was approved for {robot.name}, the vehicle is {vehicle.robot.name} or has another profile",

@@ -16,7 +16,9 @@ from fieldhand.planning.planner import Answer, Clarify, Planned, Planner, Planne
 from fieldhand.plugins import active
 from fieldhand.robot.model import RobotProfile
 from fieldhand.short_repr import short_repr
+from fieldhand.site.earlier_missions import EarlierMissions
 from fieldhand.site.model import Site
+from fieldhand.task.earlier import uses_records, with_earlier
 
 if TYPE_CHECKING:
     from fieldhand.planning.llm.chat import Chat
@@ -91,6 +93,8 @@ def plan(
     robot: RobotProfile,
     planner: Planner | str = "auto",
     answers: Sequence[Answer] = (),
+    *,
+    earlier: EarlierMissions | Callable[[], EarlierMissions] | None = None,
 ) -> Plan | Clarify | Refused:
     """Turn a request into a Task, a question, or a refusal.
 
@@ -100,17 +104,26 @@ def plan(
         robot: Robot that it is for.
         planner: A planner, or the name of one; a language model is configured from the process's environment.
         answers: Answers to earlier questions about this request, in their order.
+        earlier: What earlier missions did on the site (:func:`fh.earlier_missions
+            <fieldhand.missions.earlier_missions.earlier_missions>`), or a function that returns it, which is called
+            only if the plan depends on it. The Task then contains what it depends on.
 
     Raises:
         RequestError: The request is empty or too long, or contains an invisible character.
         InputError: There is no planner of that name.
         ModelError: A language model was needed and could not be used.
+        TaskError: The plan depends on more earlier captures than a Task can contain.
     """
     _require_visible_words(request, answers)
     chosen = make_planner(planner, os.environ) if isinstance(planner, str) else planner
-    outcome = chosen.plan(request, site, robot, tuple(answers))
+    # A planner that resolves places to check them then finds those of the records.
+    known = site.with_earlier(earlier) if isinstance(earlier, EarlierMissions) else site
+    outcome = chosen.plan(request, known, robot, tuple(answers))
     if isinstance(outcome, Planned):
-        return Plan(task=outcome.task, planner=outcome.planner, site=site, robot=robot)
+        task = outcome.task
+        if earlier is not None and uses_records(task):
+            task = with_earlier(task, earlier() if callable(earlier) else earlier)
+        return Plan(task=task, planner=outcome.planner, site=site, robot=robot)
     return outcome
 
 

@@ -6,12 +6,14 @@ from collections.abc import Sequence
 
 from fieldhand.robot.capabilities import measures_of
 from fieldhand.robot.model import RobotProfile
+from fieldhand.site.earlier_missions import EarlierMissions
 from fieldhand.site.model import Site
 from fieldhand.task.build import make_task
+from fieldhand.task.earlier import with_earlier
 from fieldhand.task.frames import Budget, Constraints, Resource, Task, Then
 from fieldhand.task.plan import Node
 from fieldhand.task.watches import Watch
-from fieldhand.task.ways import Avoid, OnlyGate
+from fieldhand.task.ways import Avoid, OnlyGate, SlowNear
 
 
 def build_task(
@@ -26,6 +28,8 @@ def build_task(
     avoid: Sequence[Avoid] = (),
     only_gates: Sequence[str] = (),
     watches: Sequence[Watch] = (),
+    slow: Sequence[SlowNear] = (),
+    earlier: EarlierMissions | None = None,
 ) -> Task:
     """Build a Task for a site and a robot; :func:`review` checks it as it checks every Task.
 
@@ -40,8 +44,10 @@ def build_task(
         avoid: Places that the robot keeps away from.
         only_gates: Names of the gates that it may pass; empty for all gates.
         watches: Conditions checked throughout the mission, each with its response.
+        slow: Places at which the robot drives slowly.
+        earlier: What earlier missions did on the site; the Task contains what its plan depends on.
     """
-    return make_task(
+    task = make_task(
         request=request,
         plan=plan,
         measures=measures_of(robot),
@@ -54,7 +60,9 @@ def build_task(
             reserve_percent=reserve_percent,
             avoid=tuple(avoid),
             only_gates=tuple(OnlyGate(gate=gate) for gate in only_gates),
+            slow=tuple(slow),
         ),
         nominal=then,
         watches=tuple(watches),
     )
+    return task if earlier is None else with_earlier(task, earlier)

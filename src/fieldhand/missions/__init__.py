@@ -12,6 +12,7 @@ begin ──▶ folder ──carry_out──▶ events          status and send_
 
 from fieldhand.missions.carry_out import carry_out, require_vehicle
 from fieldhand.missions.direct_commands import DirectCommands
+from fieldhand.missions.earlier_missions import earlier_missions
 from fieldhand.missions.find_mission import all_missions, exists, find, missions_folder
 from fieldhand.missions.folder import (
     FolderContents,
@@ -46,6 +47,7 @@ __all__ = [
     "all_missions",
     "begin",
     "carry_out",
+    "earlier_missions",
     "events_of",
     "exists",
     "find",

@@ -13,15 +13,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from fieldhand import mission
-from fieldhand.errors import JournalError, NotApprovedError
+from fieldhand.errors import JournalError, NotApprovedError, TaskError
 from fieldhand.execution.vehicle import Connection
 from fieldhand.files import FileFault, read_file, store_names, write_stored, write_whole
 from fieldhand.folders import Unguarded, require_guarded, require_own_file
 from fieldhand.hidden_characters import json_text
 from fieldhand.language import message, named
 from fieldhand.missions.direct_commands import no_command
+from fieldhand.missions.records_file import records_from_json, records_json
 from fieldhand.missions.signed_contents import require_signed
 from fieldhand.task.authorization import Authorization, AuthorizedTask
+from fieldhand.task.earlier import site_of_run
+from fieldhand.task.timing import Schedule
 
 if TYPE_CHECKING:
     from fieldhand.approval.bundle.opening import Bundle
@@ -29,8 +32,10 @@ if TYPE_CHECKING:
     from fieldhand.execution.operator_commands import OperatorCommand
     from fieldhand.execution.vehicle import Vehicle
     from fieldhand.robot.model import RobotProfile
+    from fieldhand.site.earlier_missions import EarlierMissions
     from fieldhand.site.formats.files import SiteFiles
     from fieldhand.site.model import Site
+    from fieldhand.task.frames import Task
 
 #: Formats of mission.json: of a simulated mission, and of one on a robot. They differ so that versions without support
 #: for robots do not resume the latter.
@@ -39,7 +44,7 @@ FORMAT, ON_ROBOT = 1, 2
 JOURNAL, ORDERS, LOG, ABOUT = "journal.sqlite", "orders.sqlite", "events.jsonl", "mission.json"
 #: Report, if one was written to the folder.
 REPORT = "report.html"
-_SIGNED = "signed.mission"
+_SIGNED, _EARLIER = "signed.mission", "earlier.json"
 #: Largest file in bytes: a signed mission with a site of 100 MB.
 _MOST_BYTES = 128_000_000
 
@@ -111,6 +116,13 @@ class Inputs:
             raise NotApprovedError(
                 message("the Task is not the one that was signed"), advice=message("run the signed mission")
             )
+
+    @property
+    def counted(self) -> EarlierMissions | None:
+        """The earlier missions that a run of a standing mission counts; None if they are those in the Task."""
+        task = self.authorized.task
+        found = site_of_run(task, self.site).earlier
+        return None if found == task.earlier else found
 
     @property
     def document(self) -> bytes:
@@ -212,6 +224,8 @@ def begin(under: Path, name: str, inputs: Inputs) -> StoredMission:
         files["world.yaml"] = world.data
     if inputs.bundle is not None:
         files[_SIGNED] = inputs.bundle.data
+    if (counted := inputs.counted) is not None:
+        files[_EARLIER] = records_json(counted)
     about = {
         "format": FORMAT if inputs.started_on is None else ON_ROBOT,
         "site": f"site/{Path(inputs.files.name).name}",
@@ -331,6 +345,8 @@ class FolderContents:
         else:
             authorized, site, robot = self._unsigned(authorization, site_file, lenient=lenient)
         world = files.get("world.yaml")
+        if (counted := files.get(_EARLIER)) is not None:
+            site = site.with_earlier(_counted(counted, authorized.task, folder))
         return StoredMission(
             folder=folder,
             authorized=authorized,
@@ -364,6 +380,25 @@ class FolderContents:
         site = site_of(SiteFiles(parts=parts, source=str(folder / site_file)), lenient=lenient)
         task = mission.decode_task(files["task.xml"], robot, source=str(folder / "task.xml"))
         return approved_before(files["task.xml"], task, authorization, site, robot), site, robot
+
+
+def _counted(data: bytes, task: Task, folder: Path) -> EarlierMissions:
+    """Return the earlier missions that a run of a standing mission counts.
+
+    Raises:
+        NotApprovedError: The Task is not one of a standing mission.
+        JournalError: The file is malformed.
+    """
+    if not isinstance(task.timing, Schedule):
+        raise NotApprovedError(
+            message("the mission's folder has other earlier missions than the approved Task"),
+            where=str(folder),
+            advice=message("run the Task as a new mission"),
+        )
+    try:
+        return records_from_json(data)
+    except TaskError as error:
+        raise _no_mission(folder, f"{_EARLIER} {error.what}") from None
 
 
 def read_folder(folder: Path) -> FolderContents:

@@ -6,6 +6,7 @@ documents them for users):
 - ``sources``: every tree, a tree by its id, a marker, a gate, the current place, labelled places.
 - ``areas``: halves, quarters, edges, extremes, corners, middles; north is true north.
 - ``filters``: by attributes, zones and blocks, distance, and previous visits.
+- ``earlier``: by what earlier missions did and read on the site.
 - ``neighbours``: nearest, farthest, adjacent trees.
 - ``rows``: rows by name and number, trees by their number in the row, along and across rows.
 - ``picks``: ordered places and the n-th of them, the first few, random and spread samples.

@@ -22,6 +22,7 @@ class NounPhrase:
         after: Other clauses after the noun, in the order of the phrase.
         row, block: Rows ("rows 2 to 5") and block of the trees.
         one_row: True if ``row`` is a single row.
+        outer_rows: The first and the last of a range of rows ("rows 2 and 5"), between which the others lie.
         among: The closed phrase from which the trees are filtered.
         order: Order of the places ("from west to east").
         every: True for a phrase with "every", which is singular although it denotes several places.
@@ -35,6 +36,7 @@ class NounPhrase:
     after: tuple[str, ...] = ()
     row: str = ""
     one_row: bool = False
+    outer_rows: str = ""
     block: str = ""
     among: str = ""
     order: str = ""
@@ -61,13 +63,13 @@ class NounPhrase:
             after=(*base.after, after) if after else base.after,
         )
 
-    def of_rows(self, row: str, *, one: bool) -> NounPhrase:
+    def of_rows(self, row: str, *, one: bool, outer: str = "") -> NounPhrase:
         """Return the phrase narrowed to some rows; a phrase that has rows already becomes the group they are taken
         from.
         """
         open_ = not (self.closed or self.row)
         base = self if open_ else NounPhrase(among=replace(self, order="").say(), order=self.order)
-        return replace(base, row=row, one_row=one)
+        return replace(base, row=row, one_row=one, outer_rows=outer)
 
     def of_block(self, block: str) -> NounPhrase:
         """Return the phrase narrowed to one block."""
@@ -119,6 +121,11 @@ class NounPhrase:
         if self.row and self.block:
             return message("{rows} of {block}", rows=self.row, block=self.block)
         return self.row or self.block
+
+    @property
+    def outer_rows_and_block(self) -> str:
+        """Return the rows between which a range lies: "rows 3 and 8 of block B"; otherwise the rows and the block."""
+        return replace(self, row=self.outer_rows or self.row).rows_and_block
 
 
 def one(text: str) -> NounPhrase:

@@ -6,7 +6,7 @@ import difflib
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Literal
 
-from fieldhand.errors import PlaceError
+from fieldhand.errors import NoPlaceError, PlaceError
 from fieldhand.language import counted, joined, message, shaped
 from fieldhand.places.wording import say_selector
 from fieldhand.site.feature_kinds import number_text, phrase
@@ -176,7 +176,7 @@ def nothing(site: Site, selector: Selector, of: str = "") -> PlaceError:
             advice=message("name an area and a number of points: '10 points in the meadow'"),
         )
     what = message("nothing on this site matches {trees}", trees=_shortened(say_selector(selector)))
-    return PlaceError(
+    return NoPlaceError(
         message("{what} ({why})", what=what, why=of) if of else what,
         where=site.name,
         advice=message("ask for other trees"),

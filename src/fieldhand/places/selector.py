@@ -135,6 +135,11 @@ class Selector(ABC):
         return None
 
     @property
+    def uses_records(self) -> bool:
+        """True if its places, apart from its nested selectors, depend on what earlier missions did on the site."""
+        return False
+
+    @property
     def decided_by_readings(self) -> bool:
         """True if the values that the mission reads determine the places."""
         return any(part.depends_on == "readings" for part in self.walk())
@@ -211,6 +216,10 @@ class Selector(ABC):
     def as_origin(self, wording: SelectorWording) -> str:
         """Return the origin of a distance in words: a zone itself instead of its trees."""
         return say_zone(self.whole_zone) if self.whole_zone else self.it(wording)
+
+    def left_out(self, wording: SelectorWording) -> str:
+        """Return the clause of a group without its places: "other than the yellow trees"."""
+        return message("other than {place}", place=self.it(wording))
 
     def aside(self, phrase: str) -> str:
         """Return the addition in brackets after the name of the single place; empty if the name is complete.
@@ -299,6 +308,19 @@ class Counted(FromGroup):
     @property
     def keeps_order(self) -> bool:
         return True
+
+    def enough(self, candidates: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> int:
+        """Return the number of places to pick: fewer than ``count`` only of a group that earlier missions determine.
+
+        Raises:
+            PlaceError: There are too few candidates.
+        """
+        left = len(candidates)
+        if not 0 < left < self.count or not any(part.uses_records for part in self.of.walk()):
+            self.need(candidates, resolution)
+            return self.count
+        notes.remark(message("{count} were asked for, but only {known} are left", count=self.count, known=left))
+        return left
 
     def need(self, candidates: PlaceGroup, resolution: Resolution) -> None:
         """Check that there are enough candidates.

@@ -19,6 +19,10 @@ from fieldhand.places.areas.extreme import Extreme
 from fieldhand.places.areas.half import Half
 from fieldhand.places.areas.middle import Middle
 from fieldhand.places.areas.quarter import Quarter
+from fieldhand.places.earlier.done_earlier import DoneEarlier
+from fieldhand.places.earlier.period import Period as Period
+from fieldhand.places.earlier.top_earlier import TopEarlier
+from fieldhand.places.earlier.where_earlier import WhereEarlier
 from fieldhand.places.filters.excluding import Excluding
 from fieldhand.places.filters.in_block import InBlock
 from fieldhand.places.filters.in_zone import InZone
@@ -89,6 +93,9 @@ SELECTORS: tuple[type[Selector], ...] = (
     Top,
     ByReading,
     GroupByReading,
+    DoneEarlier,
+    TopEarlier,
+    WhereEarlier,
     InZone,
     Within,
     Take,

@@ -13,10 +13,10 @@ def foreseeable(selector: Selector) -> Iterator[Selector]:
     """Yield the largest parts of a selector whose places exist or not regardless of where the robot will be.
 
     The nearest line of points or row of so many trees depends on the robot's position, but its existence does not:
-    such parts are searched from the start.
+    such parts are searched from the start. What earlier missions did may be unknown where a mission is planned.
     """
     near_start = selector.from_start
-    if not any(part.depends_on in ("mission", "readings") for part in near_start.walk()):
+    if not any(part.depends_on in ("mission", "readings") or part.uses_records for part in near_start.walk()):
         yield near_start
         return
     for part in selector.inner:

@@ -10,6 +10,7 @@ from typing import Any, cast
 
 from fieldhand.places import selectors as s
 from fieldhand.places.selector import Counted
+from fieldhand.terms import CornerName, Side
 
 #: Areas by the order in which they are nested, the innermost first: a row of a half of a block.
 _NESTING: dict[type[s.Selector], int] = {
@@ -68,6 +69,12 @@ def parts(selector: s.Selector) -> tuple[s.Selector, ...]:
     values = (getattr(selector, name) for name in selector.__dataclass_fields__)
     inner = (part for value in values for part in (value if isinstance(value, tuple) else (value,)))
     return tuple(part for part in inner if isinstance(part, s.Selector))
+
+
+def anchors(selector: s.Selector) -> tuple[s.Selector, ...]:
+    """Return what trees are said to be near to, or far from."""
+    found = (getattr(selector, name, None) for name in ("to", "origin", "near"))
+    return tuple(one for one in found if isinstance(one, s.Selector))
 
 
 def swapped(selector: s.Selector, old: s.Selector, new: s.Selector) -> s.Selector:
@@ -259,6 +266,18 @@ def as_corners(selector: s.Selector) -> s.Corners | None:
     return selector if isinstance(selector, s.Corners) else None
 
 
+def as_excluding(selector: s.Selector) -> s.Excluding | None:
+    """Return the selector if it leaves out places, None otherwise."""
+    return selector if isinstance(selector, s.Excluding) else None
+
+
+def compass_part(selector: s.Selector) -> tuple[Side | CornerName, s.Selector] | None:
+    """Return the side of a half or a quarter and the area that it is a part of; None for other selectors."""
+    if isinstance(selector, s.Half):
+        return selector.side, selector.of
+    return (selector.quarter, selector.of) if isinstance(selector, s.Quarter) else None
+
+
 def as_half(selector: s.Selector) -> s.Half | None:
     """Return the selector if it is a half of the site, None otherwise."""
     return selector if isinstance(selector, s.Half) else None
@@ -359,6 +378,17 @@ def as_nearest(selector: s.Selector) -> s.Nearest | None:
 def as_apart(selector: s.Selector) -> s.Apart | None:
     """Return the selector if it takes trees at a distance from each other, None otherwise."""
     return selector if isinstance(selector, s.Apart) else None
+
+
+def rank_of(selector: s.Selector) -> tuple[str, bool] | None:
+    """Return the attribute by which trees are ranked or bounded, and True for its low values; None for others."""
+    match selector:
+        case s.Top():
+            return selector.attribute, selector.lowest
+        case s.Where(test="lt" | "gt"):
+            return selector.attribute, selector.test == "lt"
+        case _:
+            return None
 
 
 def as_top(selector: s.Selector) -> s.Top | None:

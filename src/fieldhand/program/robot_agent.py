@@ -160,6 +160,7 @@ def compose_robot_agent(
             check=partial(_require_valid, reviews, simulated_world),
             conclude=conclude,
             seed=seed,
+            simulated=True,
             **times,
         )
         return RobotAgent(robot=profile, sites=places, mission_store=mission_store, supervisor=supervisor)

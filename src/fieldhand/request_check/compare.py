@@ -15,6 +15,7 @@ from fieldhand.language.words import listed, say_name
 from fieldhand.places.selectors import AlongRow, InRow, Rows
 from fieldhand.request_check import words as w
 from fieldhand.request_check.amounts import StatedAmount, numbers_of
+from fieldhand.request_check.earlier import actions_of_records, periods_of, selects_by_work, without_stated_periods
 from fieldhand.request_check.limits import limit_mismatches
 from fieldhand.request_check.mismatch import PlanMismatch
 from fieldhand.request_check.places import place_mismatches
@@ -43,6 +44,7 @@ def mismatches(task: Task, site: Site, robot: RobotProfile) -> tuple[PlanMismatc
     A plan without contradictions may still be wrong.
     """
     request = without_stated_times(task.command.read_as or task.command.request, task)
+    request = without_stated_periods(request, task)
     sizes = SelectorSizes(task, site)
     waits = [watch for watch in task.composition.watches if watch.response == "wait"]
     longest = tuple(robot.patience.event_wait_s if one.at_most_s is None else one.at_most_s for one in waits)
@@ -53,7 +55,12 @@ def mismatches(task: Task, site: Site, robot: RobotProfile) -> tuple[PlanMismatc
         *threshold_mismatches(facts, plan, robot),
         *limit_mismatches(facts, plan),
         *place_mismatches(facts, plan, site),
-        *unsupported_words(facts, frozenset(node.dwell_s for node in plan.nodes if node.dwell_s)),
+        *unsupported_words(
+            facts,
+            periods_of(task),
+            frozenset(node.dwell_s for node in plan.nodes if node.dwell_s),
+            by_records=selects_by_work(task),
+        ),
     ]
     return tuple(dict.fromkeys(found))
 
@@ -61,10 +68,11 @@ def mismatches(task: Task, site: Site, robot: RobotProfile) -> tuple[PlanMismatc
 def _sensors(facts: RequestFacts, plan: PlanFacts, robot: RobotProfile) -> Iterator[PlanMismatch]:
     """Yield requested actions that the plan lacks, and planned actions that the request does not mention."""
     spoken: set[str] = set()
+    planned = plan.actions | actions_of_records(plan.task, robot)
     reported: set[frozenset[str]] = set()
     for k, noun in facts.nouns.items():
         spoken |= noun.actions
-        if noun.actions & plan.actions or facts.negated(k) or noun.actions in reported:
+        if noun.actions & planned or facts.negated(k) or noun.actions in reported:
             continue
         reported.add(noun.actions)
         words = w.quoted(facts.tokens[k : k + noun.length])

@@ -150,6 +150,8 @@ def _speeds(plan: PlanFacts) -> list[tuple[str, float]]:
     """Return the speed limits of a plan, each with its node; that of the whole mission without one."""
     whole = plan.task.constraints.speed_m_s
     parts = [(node.id, node.pace_m_s) for node in plan.nodes if math.isfinite(node.pace_m_s)]
+    parts += [("", slow.speed_m_s) for slow in plan.task.constraints.slow if slow.speed_m_s is not None]
+    parts += [("", watch.speed_m_s) for watch in plan.task.composition.watches if watch.speed_m_s is not None]
     return [*([] if whole is None else [("", whole)]), *parts]
 
 

@@ -14,6 +14,7 @@ from typing import Literal
 from fieldhand.places import selectors as s
 from fieldhand.places.count_range import ONE, CountRange, exactly
 from fieldhand.places.selector import Selector
+from fieldhand.request_check.earlier import earlier_tests
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
 from fieldhand.task.aggregates import CompareSeries, CountReadings, MeanKnown
@@ -205,6 +206,7 @@ def plan_facts(task: Task, size: Callable[[str], int | None]) -> PlanFacts:
     selectors = (
         *((n.id, x) for n in nodes if (top := n.selector) is not None for x in top.walk()),
         *((root.id, x) for avoid in task.constraints.avoid for x in avoid.places.walk()),
+        *((root.id, x) for slow in task.constraints.slow for x in slow.places.walk()),
     )
     return PlanFacts(
         task=task,
@@ -287,6 +289,11 @@ def _counts(selector: Selector) -> Iterator[int]:
 
 def _tests(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], ...]) -> Iterator[PlannedTest]:
     for node, x in selectors:
+        for past in earlier_tests(x):
+            yield PlannedTest(
+                node=node, quantity=past.quantity, attribute="", test=past.test, values=(past.value,), unit=past.unit,
+                plainly=True,
+            )  # fmt: skip
         if isinstance(x, s.Where) and isinstance(x.value, float | int) and not isinstance(x.value, bool):
             yield PlannedTest(
                 node=node, quantity="", attribute=x.attribute, test=x.test, values=(float(x.value),), plainly=True
@@ -350,13 +357,14 @@ def _in_words(condition: CountReadings) -> bool:
 
 
 def _kept_distances(task: Task) -> Iterator[PlannedNumber]:
-    """Yield the distances that a plan keeps from places."""
-    for avoid in task.constraints.avoid:
-        if avoid.distance_m:
+    """Yield the distances that a plan keeps from places, and within which it drives slowly."""
+    kept = [("avoid distance m", avoid.distance_m) for avoid in task.constraints.avoid]
+    for what, distance_m in (*kept, *(("slow within m", slow.distance_m) for slow in task.constraints.slow)):
+        if distance_m:
             yield PlannedNumber(
                 node=task.composition.plan.id,
-                what="avoid distance m",
-                value=avoid.distance_m,
+                what=what,
+                value=distance_m,
                 kind="length",
                 field="distance_m",
             )
@@ -380,7 +388,7 @@ def _numbers(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], .
     for name, x in selectors:
         for field in fields(x):
             value = getattr(x, field.name)
-            if isinstance(value, bool) or value == field.default or isinstance(x, s.Where):
+            if isinstance(value, bool) or value == field.default or isinstance(x, s.Where) or field.name == "value":
                 continue
             if field.name == "seed":
                 continue  # it numbers draws from several groups

@@ -6,10 +6,12 @@ They are recognized by words alone; names of the site ("the Sunday block") do no
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from fieldhand.language import message
+from fieldhand.places.earlier.period import Period
 from fieldhand.request_check import words as w
+from fieldhand.request_check.earlier import states
 from fieldhand.request_check.mismatch import PlanMismatch
 from fieldhand.request_check.request_facts import RequestFacts
 
@@ -34,8 +36,14 @@ _SCHEDULES = (
     r"(?:at|by|before|until|till|after) \w+ o'clock",
     rf"in {_AMOUNT} (?:days?|weeks?|months?)|{_AMOUNT} (?:minutes?|hours?|days?|weeks?) (?:from now|later)",
 )
+_WORKED = (
+    "done|visited|measured|photographed|pictured|imaged|sampled|covered|checked|sprayed|mowed|mown|inspected|scouted"
+)
+_MISSIONS = "mission|run|round|trip|survey|visit|outing|flight|inspection"
 _PAST = (
-    rf"yesterday(?: (?:{_PARTS}))?|last (?:{_PARTS}|{_DAYS}|week|month|time)",
+    rf"yesterday(?: (?:{_PARTS}))?|(?:last|previous) (?:{_PARTS}|{_DAYS}|week|month|year|time|season|{_MISSIONS})",
+    rf"(?:last|past|previous) {_AMOUNT} (?:hours?|days?|weeks?|months?|years?|(?:{_MISSIONS})s?)",
+    rf"since (?:last )?(?:{_DAYS}|{_MONTHS})",
     rf"{_AMOUNT} (?:hours?|days?|weeks?|months?) ago|earlier today",
 )
 
@@ -44,9 +52,18 @@ def _pattern(forms: tuple[str, ...]) -> re.Pattern[str]:
     return re.compile(rf"(?<!\S)(?:{'|'.join(forms)})(?!\S)")
 
 
+_WITHOUT = message("no place of the plan depends on that")
 _KINDS = (
     (_pattern(_SCHEDULES), message("the plan says nothing of it, or another time")),
-    (_pattern(_PAST), message("a plan has no access to earlier missions")),
+    (_pattern(_PAST), _WITHOUT),
+)
+#: References to earlier work, which demand places that depend on it.
+_DONE = _pattern(
+    (
+        rf"already (?:been )?(?:{_WORKED})|(?:have|has|had) (?:not|never) been (?:{_WORKED})",
+        rf"never (?:been )?(?:{_WORKED})",
+        rf"(?:not|never) (?:yet )?(?:{_WORKED}) yet",
+    )
 )
 #: Times at which a mission may be to start anyway, if they are all that a request says of time.
 _START = _pattern((r"this (?:morning|afternoon|evening)", r"(?:before|after) (?:lunch|lunchtime)"))
@@ -56,37 +73,43 @@ _OTHER_TIMES = frozenset({"again", "later", "now", "then", "afterwards"})
 _OF_EARLIER = frozenset({"from", "of", "since", "until"})
 #: Words with which a reason begins that may tell of the past ("because we did that row yesterday").
 _REASON = _pattern((r"because", r"since (?:we|i|it|they|he|she|the|my|our|row|tree)"))
-#: References to the past, which are harmless in a sentence without a request ("We had a leak last week.").
-_REMARKS = _KINDS[1][0]
 
 
-def unsupported_words(facts: RequestFacts, waits: frozenset[float] = frozenset()) -> Iterator[PlanMismatch]:
+def unsupported_words(
+    facts: RequestFacts,
+    periods: Collection[Period] = (),
+    waits: frozenset[float] = frozenset(),
+    *,
+    by_records: bool = False,
+) -> Iterator[PlanMismatch]:
     """Yield a contradiction for each part of the request that no plan can express, and for times that it lacks.
 
     Args:
-        facts: Facts of the request.
+        facts: Facts of the request, without the times and periods that the plan holds.
+        periods: Periods of earlier missions that the plan holds.
         waits: Seconds of the waits of the plan, by which it may repeat something ("every ten minutes, six times").
+        by_records: True if the plan selects places by what earlier missions, or this one so far, did.
     """
     starts: dict[int, int] = {}
     at = 0
     for k, token in enumerate(facts.tokens):
         starts[at] = k
         at += len(token.text) + 1
-    for pattern, why in _KINDS:
+    kinds = _KINDS if by_records else (*_KINDS, (_DONE, _WITHOUT))
+    for pattern, why in kinds:
         for match in pattern.finditer(facts.text):
             first = starts[match.start()]
             sentence = facts.tokens[first].sentence
-            remark = pattern is _REMARKS and not any(facts.tokens[k].sentence == sentence for k in facts.nouns)
+            past = why is _WITHOUT  # harmless in a sentence without a request ("We had a leak last week.")
+            remark = past and not any(facts.tokens[k].sentence == sentence for k in facts.nouns)
             speed = first and facts.tokens[first - 1].text in w.LENGTHS and match[0].startswith(("per ", "a ", "an "))
-            told = _is_told(
-                match, facts, sentence, first, last := first + len(match[0].split()), past=pattern is _REMARKS
-            )
+            told = _is_told(match, facts, sentence, first, last := first + len(match[0].split()), past=past)
+            own = pattern is not _DONE and not facts.named.isdisjoint(range(first, last))
+            held = any(states(match[0], period) for period in periods)
             rests = any(
                 first - 1 <= one.index < last and one.kind == "time" and waits & {*one.values} for one in facts.amounts
             )
-            if rests:
-                continue
-            if not told and not remark and not speed and facts.named.isdisjoint(range(first, last)):
+            if not (told or remark or speed or own or held or rests):
                 words = w.quoted(facts.tokens[first:last])
                 yield PlanMismatch(
                     kind="unheld", what=message("the request says '{words}', and {why}", words=words, why=why)

@@ -288,6 +288,11 @@ class RobotProfile:
         """Return the events by name."""
         return {e.name: e for e in self.events}
 
+    @property
+    def slowly_m_s(self) -> float:
+        """Return the speed of slow driving in m/s: ``slow_m_s``, or half of the driving speed without it."""
+        return 0.5 * self.speed_m_s if self.slow_m_s is None else self.slow_m_s
+
     def percent(self, metres: float, seconds: float, action_j: float = 0.0) -> float:
         """Return the energy of driving, idling and actions in percent of a full battery.
 

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from shapely.geometry import Polygon
 
 from fieldhand.short_repr import short_repr
+from fieldhand.site.earlier_missions import EarlierMissions
 from fieldhand.site.feature_kinds import ZoneKind
 from fieldhand.site.planting import Planting
 from fieldhand.site.projection import Projection
@@ -147,6 +148,8 @@ class Site:
         source: Path or name of the input, for messages.
         gates: Openings in fences.
         marker_names: Kind of a marker and the name that the file gives it, such as ("start", "barn").
+        earlier: What earlier missions did here (:meth:`with_earlier`); None if it is not given. It is not part of the
+            site file: :attr:`sha256` and :attr:`content_sha256` do not depend on it.
         notes: Sentences about features that the reader left out or interpreted differently from the file.
     """
 
@@ -160,6 +163,7 @@ class Site:
     notes: tuple[str, ...] = ()
     gates: tuple[Gate, ...] = ()
     marker_names: tuple[tuple[str, str], ...] = ()
+    earlier: EarlierMissions | None = field(default=None, compare=False)
 
     __repr__ = short_repr
 
@@ -188,6 +192,15 @@ class Site:
         from fieldhand.site.loader import load_demo
 
         return load_demo()
+
+    def with_earlier(self, earlier: EarlierMissions | None) -> Site:
+        """Return the same site with what earlier missions did here; it shares all computed results with this one."""
+        if earlier == self.earlier:
+            return self
+        self.cache  # noqa: B018  both share the dictionary
+        made = object.__new__(Site)
+        made.__dict__.update(self.__dict__, earlier=earlier)
+        return made
 
     def __getstate__(self) -> dict[str, object]:
         """Return only the fields; another process computes the cached properties again."""

@@ -27,7 +27,7 @@ from fieldhand.task.frames import Budget, Command, Composition, Constraints, Fau
 from fieldhand.task.plan import Act, InOrder, Node, OptionalStep, Span, StopMission, WorkAlong
 from fieldhand.task.timing import Timing
 from fieldhand.task.watches import Watch, WatchCondition
-from fieldhand.task.ways import Avoid, OnlyGate
+from fieldhand.task.ways import Avoid, OnlyGate, SlowNear
 from fieldhand.terms import Value
 
 NAMESPACE = "urn:fieldhand:task:1"
@@ -56,7 +56,7 @@ class TaskComposition:
 
 @dataclass(frozen=True, kw_only=True)
 class ConstraintsElement:
-    """Limits of the whole mission: budgets, then places to avoid, then gates to use; reserve and speed.
+    """Limits of the whole mission: budgets, then places to avoid, gates to use, slow places; reserve and speed.
 
     Attributes:
         reserve_percent: Charge to leave at the end; None for the profile's reserve.
@@ -68,7 +68,7 @@ class ConstraintsElement:
         recharge_at_most: Maximum number of charges; None for any number.
     """
 
-    parts: tuple[Budget | Avoid | OnlyGate, ...] = ()
+    parts: tuple[Budget | Avoid | OnlyGate | SlowNear, ...] = ()
     reserve_percent: float | None = None
     reserve_said: tuple[Span, ...] = ()
     speed_m_s: float | None = None
@@ -85,7 +85,11 @@ class ConstraintsElement:
 QUOTES = "words"
 QUOTED = {"command": "no-part", "exits": "nominal-said", "constraints": "reserve-said"}
 #: Elements not named after their field.
-_NAMES: dict[tuple[type, str], str] = {(Task, "composition"): "task-composition", (Command, "variables"): "state"}
+_NAMES: dict[tuple[type, str], str] = {
+    (Task, "composition"): "task-composition",
+    (Command, "variables"): "state",
+    (Task, "earlier"): "earlier-missions",
+}
 #: Elements that are not named after their class: their names are part of the file format.
 _ELEMENT_NAMES: dict[type, str] = {
     FaultedExit: "faulted",
@@ -200,7 +204,7 @@ SURROGATES: dict[type, tuple[type, Callable[[Any], Any], Callable[[Any], Any]]] 
     Constraints: (
         ConstraintsElement,
         lambda c: ConstraintsElement(
-            parts=(*c.budgets, *c.avoid, *c.only_gates),
+            parts=(*c.budgets, *c.avoid, *c.only_gates, *c.slow),
             reserve_percent=c.reserve_percent,
             reserve_said=c.reserve_said,
             speed_m_s=c.speed_m_s,
@@ -213,6 +217,7 @@ SURROGATES: dict[type, tuple[type, Callable[[Any], Any], Callable[[Any], Any]]] 
             speed_m_s=t.speed_m_s,
             avoid=tuple(part for part in t.parts if isinstance(part, Avoid)),
             only_gates=tuple(part for part in t.parts if isinstance(part, OnlyGate)),
+            slow=tuple(part for part in t.parts if isinstance(part, SlowNear)),
             **{name: getattr(t, name) for name in _ENERGY},
         ),
     ),

@@ -11,10 +11,11 @@ from pathlib import Path
 from typing import Literal
 
 from fieldhand.short_repr import short_repr
+from fieldhand.site.earlier_missions import EarlierMissions
 from fieldhand.task.plan import Node, Span
 from fieldhand.task.timing import Timing
 from fieldhand.task.watches import Watch
-from fieldhand.task.ways import Avoid, OnlyGate
+from fieldhand.task.ways import Avoid, OnlyGate, SlowNear
 
 Then = Literal["return_to_end", "return_to_start", "stay"]
 Fault = Literal["action_failed", "drive_failed", "low_budget", "aborted"]
@@ -135,6 +136,7 @@ class Constraints:
         speed_m_s: Maximum speed; None for the robot's.
         avoid: Places that the robot keeps away from.
         only_gates: Gates that it may pass; empty for all gates.
+        slow: Places at which it drives slowly.
         return_percent: Charge at which the robot drives home, wherever it is; None for the profile's.
         recharge: Charge at the site's charger whenever the work needs it, and go on.
         recharge_below_percent: Charge below which it goes to the charger although the next visit would still fit.
@@ -155,6 +157,7 @@ class Constraints:
     recharge_until_percent: float | None = None
     recharge_at_most: int | None = None
     energy_said: tuple[Span, ...] = ()
+    slow: tuple[SlowNear, ...] = ()
 
     def __repr__(self) -> str:
         """Return the fields as text. Those added later are left out at their default: ids of Tasks are hashes of it."""
@@ -197,6 +200,7 @@ class Task:
         constraints: Budgets, reserve and maximum speed.
         resources: Site and robot for which the Task was planned.
         timing: Time at which it begins, or schedule of a standing mission; None to begin when it is started.
+        earlier: What earlier missions did on the site, as far as the plan depends on it; None if it does not.
     """
 
     id: str
@@ -205,6 +209,7 @@ class Task:
     constraints: Constraints = Constraints()
     resources: tuple[Resource, ...] = ()
     timing: Timing | None = None
+    earlier: EarlierMissions | None = None
 
     __repr__ = short_repr
 

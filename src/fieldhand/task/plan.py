@@ -86,3 +86,8 @@ def acts(node: Node) -> Iterator[Act]:
 def works(node: Node) -> Iterator[WorkAlong]:
     """Yield the work along paths in this node and all nodes inside it, in document order."""
     return (inner.work for inner in walk(node) if inner.work is not None)
+
+
+def actions_of(node: Node) -> frozenset[str]:
+    """Return the names of the actions in this node and all nodes inside it, at places and along paths."""
+    return frozenset((*(act.action for act in acts(node)), *(work.action for work in works(node))))

@@ -111,6 +111,8 @@ def _ranges(task: Task) -> Iterator[tuple[Span, WordRole]]:
         yield from ((span, "limit") for span in avoid.said)
     for only in task.constraints.only_gates:
         yield from ((span, "limit") for span in only.said)
+    for slow in task.constraints.slow:
+        yield from ((span, "limit") for span in slow.said)
     for watch in task.composition.watches:
         yield from ((span, "condition") for span in watch.said)
     yield from ((span, "limit") for span in (*task.constraints.reserve_said, *task.constraints.energy_said))
@@ -121,10 +123,13 @@ def _ranges(task: Task) -> Iterator[tuple[Span, WordRole]]:
 
 
 def _join_gaps(roles: list[WordRole], request: str) -> None:
-    """Assign text between two words of one role to that role, unless it contains punctuation; changes ``roles``."""
+    """Assign text between two words of one role to that role, unless punctuation parts them; changes ``roles``.
+
+    A stroke does not ("l/ha").
+    """
     at = 0
     for role, run in groupby(list(roles)):
         start, at = at, at + len(list(run))
-        parted = re.search(r"[^\w\s]", request[start:at])
+        parted = re.search(r"[^\w\s/]", request[start:at])
         if role == "between" and not parted and start > 0 and at < len(roles) and roles[start - 1] == roles[at]:
             roles[start:at] = [roles[at]] * (at - start)

@@ -363,7 +363,7 @@ class EventBegan:
     node: str = ""
     watch: int
     name: str
-    response: Literal["wait", "skip", "skip_row", "return_to_start", "return_to_end", "end"]
+    response: Literal["wait", "skip", "skip_row", "return_to_start", "return_to_end", "end", "slow"]
     value: float | None
     unit: str = ""
     what: str

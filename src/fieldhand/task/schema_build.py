@@ -37,6 +37,11 @@ _FACETS: dict[str, dict[str, str]] = {
     "at_least": {"minInclusive": "2", "maxInclusive": "1000"},
     "expected": {"minInclusive": "0"},
     "distance_m": {"minInclusive": "0"},
+    "DoneEarlier.at_least": {"minInclusive": "1", "maxInclusive": "1000"},
+    "last_missions": {"minInclusive": "1", "maxInclusive": "1000"},
+    "last_hours": {"minInclusive": "1", "maxInclusive": "100000"},
+    "last_days": {"minInclusive": "1", "maxInclusive": "100000"},
+    "last_months": {"minInclusive": "1", "maxInclusive": "1200"},
     "laps": {"minInclusive": "1", "maxInclusive": "100"},
     "limit": {"minExclusive": "0"},
     "failure_probability": {"minExclusive": "0", "maxExclusive": "1"},
@@ -160,6 +165,9 @@ class SchemaBuilder:
             for child in shape.children:
                 self.child(only, shape, child)
             return
+        if len(shape.children) > 1 and all(child.default is not MISSING for child in shape.children):
+            self.any_order(made, shape, (None, *shape.children), needs_head=True)
+            return
         either = _xs(made, "choice")
         after = _xs(either, "sequence")
         self.head_choice(after, shape)
@@ -168,6 +176,19 @@ class SchemaBuilder:
             self.child(after, shape, child)
             self.child(before, shape, child, required=True)
         self.head_choice(before, shape, optional=shape.head is not None and shape.head.optional)
+
+    def any_order(self, parent: _Element, shape: Shape, parts: tuple[Child | None, ...], *, needs_head: bool) -> None:
+        """Add parts that may be left out, in any order, and the element of the quantity (None), which is required."""
+        either = _xs(parent, "choice", **({} if needs_head else {"minOccurs": "0"}))
+        for part in parts:
+            once = _xs(either, "sequence")
+            if part is None:
+                self.head_choice(once, shape)
+            else:
+                self.child(once, shape, part, required=True)
+            rest = tuple(other for other in parts if other is not part)
+            if rest:
+                self.any_order(once, shape, rest, needs_head=needs_head and part is not None)
 
     def head_choice(self, parent: _Element, shape: Shape, *, optional: bool = False) -> None:
         """Add an element for each action or quantity, with the attributes that depend on it."""
@@ -232,7 +253,7 @@ class SchemaBuilder:
         """Add the attribute of a plain field."""
         use = {"use": "required"} if self.required(cls, attribute.field, attribute.default) else {}
         words = words or attribute.choices
-        if attribute.field == "action":
+        if attribute.field == "action" and attribute.default is MISSING:
             words = tuple(self.capabilities.actions)
         bounds = _FACETS.get(f"{cls.__name__}.{attribute.field}", _FACETS.get(attribute.field, {}))
         facets = bounds if attribute.kind in ("integer", "number") else {}

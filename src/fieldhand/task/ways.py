@@ -1,4 +1,4 @@
-"""Limits of where a mission drives: ground that it keeps out of, distances that it keeps, gates that it may use."""
+"""Limits of where a mission drives: ground that it keeps out of, ground on which it is slow, and gates that it uses."""
 
 from __future__ import annotations
 
@@ -34,4 +34,23 @@ class OnlyGate:
     """
 
     gate: str
+    said: tuple[Span, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class SlowNear:
+    """Places at which the robot drives slowly, wherever its path leads through them.
+
+    Without a distance that is within a zone, in the aisles beside rows or other trees, or in the opening of a gate;
+    with one, as near to them.
+
+    Attributes:
+        distance_m: Distance in metres within which it drives slowly; 0 for the places themselves.
+        speed_m_s: Highest driving speed there; None for the robot's slow speed.
+        said: Character ranges of the request that state it.
+    """
+
+    places: Selector
+    distance_m: float = 0.0
+    speed_m_s: float | None = None
     said: tuple[Span, ...] = ()

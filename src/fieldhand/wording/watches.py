@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from fieldhand.language import Message, kept_in_log, labelled, message, named
-from fieldhand.language.words import capitalised, say_duration, say_name, say_number, say_quantity, say_unit
+from fieldhand.language.words import capitalised, say_action, say_duration, say_name, say_number, say_quantity, say_unit
 from fieldhand.robot.model import RobotProfile
-from fieldhand.task.watches import EventBeyond, EventHolds, Fallback, ReadingBeyond, Watch
+from fieldhand.task.watches import EventAbsent, EventBeyond, EventHolds, Fallback, ReadingBeyond, Watch
 from fieldhand.terms import Test
 
 if TYPE_CHECKING:
@@ -28,6 +28,8 @@ def say_watched(watch: Watch, robot: RobotProfile) -> str:
     match watch.condition:
         case EventHolds(event=name):
             return say_event(name, robot)
+        case EventAbsent(event=name):
+            return message("it is not the case that {what}", context="log", what=say_event(name, robot))
         case EventBeyond(event=name, test=test, value=value, unit=unit):
             noun = robot.event[name].words[0] if name in robot.event else name
             return _beyond(_named(noun), test, say_quantity(value, unit))
@@ -61,29 +63,44 @@ def wait_limit_s(watch: Watch, robot: RobotProfile) -> float:
     return robot.patience.event_wait_s if watch.at_most_s is None else watch.at_most_s
 
 
+def slow_limit_m_s(watch: Watch, robot: RobotProfile) -> float:
+    """Return the highest driving speed in m/s of a watch whose response is to drive slowly."""
+    return robot.slowly_m_s if watch.speed_m_s is None else watch.speed_m_s
+
+
 def say_watch(watch: Watch, robot: RobotProfile) -> str:
     """Return a watch as a sentence of the read-back."""
+    text = _say_response(watch, robot)
+    if not watch.during:
+        return message("At any time: {rule}", rule=text)
+    return message("In the steps to {action}: {rule}", action=say_action(watch.during), rule=text)
+
+
+def _say_response(watch: Watch, robot: RobotProfile) -> str:
     what = say_watched(watch, robot)
     match watch.response:
+        case "slow":
+            speed = say_number(slow_limit_m_s(watch, robot), 3)
+            return message("while {what}, drive no faster than {speed} m/s.", what=what, speed=speed)
         case "wait":
             time = say_duration(wait_limit_s(watch, robot))
             after = _FALLBACKS[watch.fallback]
             return message(
-                "At any time: if {what}, stand still until it is over, at most {time}; then {after}.",
+                "if {what}, stand still until it is over, at most {time}; then {after}.",
                 what=what,
                 time=time,
                 after=after,
             )
         case "skip":
-            return message("At any time: if {what}, leave out the current visit and go on with the next.", what=what)
+            return message("if {what}, leave out the current visit and go on with the next.", what=what)
         case "skip_row":
-            return message("At any time: if {what}, leave out the rest of that row and go on.", what=what)
+            return message("if {what}, leave out the rest of that row and go on.", what=what)
         case "return_to_start":
-            return message("At any time: if {what}, give up the rest and return to the start.", what=what)
+            return message("if {what}, give up the rest and return to the start.", what=what)
         case "return_to_end":
-            return message("At any time: if {what}, give up the rest and return to the end.", what=what)
+            return message("if {what}, give up the rest and return to the end.", what=what)
         case "end":
-            return message("At any time: if {what}, end the mission where the robot is.", what=what)
+            return message("if {what}, end the mission where the robot is.", what=what)
 
 
 _FALLBACKS: dict[Fallback, str] = {
@@ -104,7 +121,7 @@ def say_held(watch: Watch, robot: RobotProfile, value: float | None) -> str:
         case EventBeyond(unit=unit) | ReadingBeyond(unit=unit):
             number, of = say_number(value, 3), say_unit(unit)
             return message("{what} ({value} {unit})", context="log", what=what, value=number, unit=of)
-        case EventHolds():
+        case EventHolds() | EventAbsent():
             return what
 
 
@@ -122,3 +139,5 @@ def say_began(event: EventBegan) -> str:
             return message("{what}: it turns home", what=what)
         case "end":
             return message("{what}: it ends its mission there", what=what)
+        case "slow":
+            return message("{what}: it drives slowly", what=what)

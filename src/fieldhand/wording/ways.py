@@ -1,17 +1,18 @@
-"""Word what a mission keeps away from and which gates it may use."""
+"""Word what a mission keeps away from, where it drives slowly, and which gates it may use."""
 
 from __future__ import annotations
 
 from fieldhand.forecast.closed_ground import say_avoidance
+from fieldhand.forecast.slow_ground import say_slow_ground, slow_speed
 from fieldhand.language import message
-from fieldhand.language.words import listed, say_gate
+from fieldhand.language.words import listed, say_gate, say_number
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.frames import Constraints
 from fieldhand.task.ways import Avoid
 
 
-def say_ways(constraints: Constraints) -> tuple[str, ...]:
-    """Return a sentence for each place that the mission keeps away from, and one for the gates that it may use."""
+def say_ways(constraints: Constraints, robot: RobotProfile | None = None) -> tuple[str, ...]:
+    """Return a sentence for each place that the mission keeps away from or drives slowly at, and one for its gates."""
     found: list[str] = []
     for avoid in constraints.avoid:
         rule = say_avoidance(avoid)
@@ -22,6 +23,12 @@ def say_ways(constraints: Constraints) -> tuple[str, ...]:
     if constraints.only_gates:
         gates = listed(tuple(say_gate(only.gate) for only in constraints.only_gates))
         found.append(message("of the gates, the robot passes only {gates}.", gates=gates))
+    for slow in constraints.slow:
+        if robot is None and slow.speed_m_s is None:
+            found.append(message("slowly {where}.", where=say_slow_ground(slow)))
+            continue
+        speed = (slow.speed_m_s or 0.0) if robot is None else slow_speed(slow.speed_m_s, robot)
+        found.append(message("at most {speed} m/s {where}.", speed=say_number(speed, 3), where=say_slow_ground(slow)))
     return tuple(found)
 
 

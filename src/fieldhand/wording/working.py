@@ -23,7 +23,8 @@ _HECTARE_FROM_M2 = 2_000.0
 
 def say_work(node: WorkAlong, robot: RobotProfile, names: Mapping[str, str]) -> str:
     """Return work along a path: "spray along rows 3 to 8 at 300 l/ha, on both sides"."""
-    doing, where = _doing(node, robot), say_along(node.along, names, rows=node.mode not in ("area", "perimeter"))
+    rows = node.mode not in ("area", "perimeter")
+    doing, where = _doing(node, robot), say_along(node.along, names, rows=rows, between=node.mode == "aisles")
     match node.mode:
         case "rows":
             text = message("{action} along {rows}", action=doing, rows=where)
@@ -60,16 +61,25 @@ def say_work(node: WorkAlong, robot: RobotProfile, names: Mapping[str, str]) -> 
     return joined(", ", more)
 
 
-def say_along(selector: Selector, names: Mapping[str, str], *, rows: bool) -> str:
-    """Return rows, a block, a zone or an area in words, without the trees on it where it has a name of its own."""
+def say_along(selector: Selector, names: Mapping[str, str], *, rows: bool, between: bool = False) -> str:
+    """Return rows, a block, a zone or an area in words, without the trees on it where it has a name of its own.
+
+    Args:
+        selector: Its trees.
+        names: Names of zones and markers.
+        rows: True for rows, rather than an area.
+        between: True if it follows "between".
+    """
     wording = SelectorWording(dict(names))
     phrase = wording.phrase(selector)
     if phrase.plain:
         return message("all rows", context="along") if rows else message("the whole site")
     if phrase.bare and phrase.rows_and_block:
-        return phrase.rows_and_block
+        if between and not phrase.row:
+            return message("the rows of {part}", part=phrase.block)
+        return phrase.outer_rows_and_block if between else phrase.rows_and_block
     if len(selector.members) > 1:
-        return listed([say_along(part, names, rows=rows) for part in selector.members])
+        return listed([say_along(part, names, rows=rows, between=between) for part in selector.members])
     return selector.as_origin(wording)
 
 

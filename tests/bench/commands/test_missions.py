@@ -114,7 +114,7 @@ def test_what_is_not_as_asked_is_said_with_why_and_the_published_row_comes_first
         "published, spatial: 1 of 1 as asked; published: 0 right",
         "world 1: step 1 was to be take_thermal_picture x1 at {attribute: {id: 8}}, and was take_thermal_picture x1",
         "planned where a question was due",
-        "refused: 'dig' asks for work that husky has no tool for",
+        "refused: husky cannot dig: no action 'dig'",
         "all: 2 of 5 as asked, 2 of 4 worlds",
     ):
         assert words in run.out, words

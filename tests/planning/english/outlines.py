@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import fields
 
 from fieldhand.places import selectors as s
+from fieldhand.places.earlier.period import Period
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
 from fieldhand.task.aggregates import Aggregate, CompareSeries, CountReadings, MeanKnown
 from fieldhand.task.battery_condition import BatteryBelow
 from fieldhand.task.frames import Constraints, Task
 from fieldhand.task.timing import DayTime, Schedule, StartTime
-from fieldhand.task.watches import EventBeyond, EventHolds, ReadingBeyond, Watch
+from fieldhand.task.watches import EventAbsent, EventBeyond, EventHolds, ReadingBeyond, Watch
 
 SHORT = {"take_thermal_picture": "picture", "take_picture": "picture", "read_co2": "co2"}
 SHORT |= {"read_ambient_temperature": "air", "read_soil_moisture": "moisture", "read_soil_nitrate": "nitrate"}
@@ -28,6 +29,9 @@ def outline(task: Task) -> str:
     for avoid in task.constraints.avoid:
         limits += f" | avoid {selector(avoid.places)}" + (f" {avoid.distance_m:g} m" if avoid.distance_m else "")
     limits += "".join(f" | only {only.gate}" for only in task.constraints.only_gates)
+    for slow in task.constraints.slow:
+        limits += f" | slow {selector(slow.places)}" + (f" {slow.distance_m:g} m" if slow.distance_m else "")
+        limits += f" at {slow.speed_m_s:g} m/s" if slow.speed_m_s else ""
     if task.constraints.recharge:
         limits += f" | recharge{_charge(task.constraints)}"
     exit_ = "" if task.composition.nominal == "return_to_end" else f" | {task.composition.nominal}"
@@ -60,10 +64,16 @@ def watch(one: Watch) -> str:
     match one.condition:
         case EventHolds(event=name):
             what = name
+        case EventAbsent(event=name):
+            what = f"not {name}"
         case EventBeyond(event=name, test=test, value=value, unit=unit):
             what = f"{name} {SIGNS[test]} {value:g} {unit}"
         case ReadingBeyond(quantity=name, test=test, value=value, unit=unit):
             what = f"{name} {SIGNS[test]} {value:g} {unit}"
+    if one.during:
+        what = f"while {SHORT.get(one.during, one.during)}: {what}"
+    if one.speed_m_s is not None:
+        return f"{what}: {one.response} {one.speed_m_s:g}"
     if one.response != "wait":
         return f"{what}: {one.response}"
     most = "" if one.at_most_s is None else f" {one.at_most_s / 60:g} min"
@@ -145,6 +155,12 @@ def selector(x: s.Selector) -> str:
             value = "+".join(selector(v) if isinstance(v, s.Selector) else str(v) for v in value)
         elif isinstance(value, float):
             value = f"{value:g}"
+        elif isinstance(value, Period):
+            value = " ".join(
+                f"{part.name.removeprefix('last_')} {getattr(value, part.name)}"
+                for part in fields(value)
+                if getattr(value, part.name) != part.default
+            )
         said.append(f"of {value}" if f.name == "of" else str(value))
     return f"{type(x).__name__}({', '.join(said)})" if said else type(x).__name__
 

@@ -93,9 +93,8 @@ Mow between rows 10 and 14 of the north block.
 Count the grapes on 10 Syrah vines.
 Take pictures of the missing vines in the south block.
 Take pictures of a few vines in the north block.
-Take pictures of the 10 worst vines.
 Take pictures on the left side of the north block.
-Skip the ones you did yesterday and take pictures of the rest of row 5 in the north block.
+Skip the ones you did last season and take pictures of the rest of row 5 in the north block.
 Sample 5 vines per variety.
 Take pictures of 5 vines. Do not drive through row 10.
 Measure CO2 at the two vines closest to vine N250 on the east side.
@@ -236,7 +235,7 @@ once a day; every hour; for powdery mildew; for pests; for water stress; for the
 on the sunny side; facing north; in the shade; without flash; weak; sick; healthy; missing; ripe; sprayed; pruned; thirsty; infected
 flowering; shaded; a few; several; on average; at the median; per variety; unless it rains; if the weather is fine
 weather permitting; avoiding the mud; except the weak ones; and spray; and mow; and count the grapes; and prune
-and water it; and take a leaf sample; and record a video; and call me; the ones you did yesterday; starting at the pond; via the barn
+and water it; and take a leaf sample; and record a video; and call me; the ones you did last season; starting at the pond; via the barn
 along the road; near the fence; backwards; diagonally; in a zigzag; clockwise; from 2 m away; with the drone; by hand
 silently; urgently; secretly; until dark; for 10 minutes; with two robots; twice a day; every 10 minutes
 """.replace("\n", ";").split(";")

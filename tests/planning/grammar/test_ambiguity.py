@@ -48,7 +48,7 @@ def test_each_answer_is_the_read_back_of_a_plan_that_says_all_of_the_request(req
     [
         ("Toma una foto de la fila 3.", {"for Rows(3, 3): [picture]", "picture @ Take(1, of Rows(3, 3))"}),
         ("Photograph tree 4 or 9.", {"picture @ TreeIs(4)", "picture @ TreeIs(9)"}),
-        ("check tree 4", {"picture @ TreeIs(4)", "air @ TreeIs(4)", "co2 @ TreeIs(4)"}),
+        ("test tree 4", {"picture @ TreeIs(4)", "air @ TreeIs(4)", "co2 @ TreeIs(4)"}),
         (
             "Take a picture of tree 4, if the battery allows, and measure CO2 at tree 5.",
             {"maybe [picture @ TreeIs(4)]; co2 @ TreeIs(5)", "picture @ TreeIs(4); maybe [co2 @ TreeIs(5)]"},

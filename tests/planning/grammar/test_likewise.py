@@ -39,7 +39,6 @@ def test_the_last_one_of_its_kind_is_meant(request_: str, plan: str) -> None:
         "Photograph three trees in row 3 and two in the other half.",
         "CO2 at the northernmost tree of the northern half, then at the southern one.",
         "Photograph the southern one.",
-        "Photograph the best five trees.",
         "Rank the trees by yield and photograph the oldest 3.",
         "Rank the trees by yield and photograph tree 4.",
         "Photograph tree 4 and come back to it.",

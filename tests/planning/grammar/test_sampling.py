@@ -290,7 +290,7 @@ REFUSED = [
 ]
 
 ASKED = [
-    (VINEYARD, "sample 5 vines per variety"),
+    (VINEYARD, "measure 5 vines per variety"),
     (VINEYARD, "read soil moisture every 20 m in the meadow"),
 ]
 

@@ -69,7 +69,8 @@ def test_a_node_holds_no_position_either(plan: str) -> None:
 
 
 def test_no_field_of_the_plan_language_is_a_position() -> None:
-    names = {field.name for cls in all_shapes() for field in fields(cls)}
+    records = "fieldhand.site.earlier_missions"  # which the program writes
+    names = {field.name for cls in all_shapes() if cls.__module__ != records for field in fields(cls)}
     assert not names & {"lat", "lon", "latitude", "longitude", "x", "y", "easting", "northing", "point", "coordinates"}
 
 

@@ -25,6 +25,7 @@ from fieldhand.task.codec_shapes import all_shapes, element_name, shape_of
 from fieldhand.task.conditions import Condition
 from fieldhand.task.plan import Node
 from fieldhand.task.schema import schema_xsd
+from fieldhand.task.timing import Timing
 from fieldhand.testing.generated.tasks import ROVER
 
 HUSKY, AMIGA = capabilities_of(load_robot("husky")), capabilities_of(load_robot("amiga"))
@@ -32,6 +33,10 @@ TRACTOR = capabilities_of(load_robot("tractor"))
 #: Parts of a draft that the program writes.
 UNSHOWN = {"resources", "resource", "state", "variable", "goals", "goal", "warnings", "warning", "read-as", "request"}
 UNWRITTEN = DERIVED | {"expected", "node", "conditional", "value-as", "sha256", "action"}
+#: Records of earlier missions, which the program writes.
+RECORDS = [shape for cls, shape in all_shapes().items() if cls.__module__ == "fieldhand.site.earlier_missions"]
+UNSHOWN |= {shape.element for shape in RECORDS}
+UNWRITTEN |= {attribute.name for shape in RECORDS for attribute in shape.attributes}
 EVERY = [*get_args(Node), *get_args(Condition), *SELECTORS]
 
 
@@ -124,6 +129,21 @@ def test_every_form_that_is_shown_is_valid_with_all_that_may_be_left_out_and_wit
     document = f"<task><task-composition><plan>{element}</plan></task-composition></task>"
     draft = read_draft(document, robot)
     assert isinstance(draft, TaskDraft), (element, draft)
+
+
+@pytest.mark.parametrize("cls", get_args(Timing), ids=lambda cls: cls.__name__)
+def test_the_form_of_a_time_is_valid_with_a_time_in_place_of_its_attributes(cls: type) -> None:
+    form = re.sub(r"[][]", "", paragraphs()[element_name(cls)][0])
+    for shown, written in (("DAY-TIME", 'sun="sunrise"'), ('="int"', '="1"'), ('day="name"', 'day="+3"')):
+        form = form.replace(shown, written)
+    form = re.sub(r'"(?:some of: )?([a-z]+)[ |][^"]*"', r'"\1"', form).replace(
+        "<day-time/>...", '<day-time clock="06:00"/>'
+    )
+    timing = f"<timing>{form}</{element_name(cls)}></timing>"
+    document = f"<task><task-composition><plan><stop/></plan></task-composition>{timing}</task>"
+    draft = read_draft(document, HUSKY)
+    assert isinstance(draft, TaskDraft), (form, draft)
+    assert isinstance(draft.timing, cls)
 
 
 def test_every_element_and_attribute_of_the_schema_is_in_the_prompt() -> None:

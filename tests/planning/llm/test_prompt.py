@@ -18,6 +18,7 @@ from fieldhand.planning.llm.review import AnswerProblem, read_draft, review
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot, robot_names
+from fieldhand.site.loader import open_site
 from fieldhand.site.model import Site
 from fieldhand.task.codec import TaskDraft
 from fieldhand.testing.scripted_chat import ScriptedChat, planner_of
@@ -25,8 +26,8 @@ from support.sites.grids import LAT, LON, grid
 from support.sites.points import area, point, read
 
 REQUEST = "Take a picture at each corner."
-#: Limit of docs/planning-llm.md. The prompt takes about 9,000; each new selector adds 30 to 60 to it.
-MAX_TOKENS = 10_000
+#: Limit of docs/planning-llm.md. The prompt takes about 10,100; each new selector adds 30 to 60 to it.
+MAX_TOKENS = 11_000
 
 
 def tokens(text: str) -> int:
@@ -86,6 +87,30 @@ def test_what_a_model_needs_of_site_and_robot_is_there() -> None:
         assert action.name in text
     for quantity in robot.quantities:
         assert f"{quantity.name} in {quantity.unit}" in text
+
+
+@pytest.mark.parametrize("robot", robot_names())
+def test_every_name_of_the_built_in_vineyard_has_room(robot: str) -> None:
+    text = opening(REQUEST, open_site("vineyard"), load_robot(robot))[1].text
+    for name in ("Block North", "Block South", "Merlot", "Syrah", "Cabernet Sauvignon", "pond", "meadow gate", "barn"):
+        assert name in text
+    assert tokens(text) + tokens(instructions()) <= MAX_TOKENS
+
+
+def test_names_of_markers_and_values_that_only_one_block_has_are_there() -> None:
+    vines = [
+        point(LON + 3e-5 * row, LAT + 2e-5 * place + north, block=block, variety=variety, id=f"{block}{row}-{place}")
+        for block, variety, north in (("North", "Merlot", 1e-3), ("South", "Syrah", 0.0))
+        for row in range(3)
+        for place in range(8)
+    ]
+    mixed = [point(LON + 3e-5 * row, LAT - 2e-5, block="South", variety="Merlot", id=f"m{row}") for row in range(3)]
+    barn = point(LON - 2e-4, LAT, name="barn", kind="start")
+    north, south = "Merlot only in block North", "Syrah only in block South"
+    for more, alone in (([], {north, south}), (mixed, {south})):
+        text = opening(REQUEST, read(*vines, *more, barn), load_robot("husky"))[1].text
+        assert "start (called barn)" in text
+        assert set(re.findall(r"\w+ only in block \w+", text)) == alone
 
 
 def test_the_first_message_is_the_same_for_every_request() -> None:

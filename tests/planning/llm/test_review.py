@@ -46,7 +46,8 @@ def test_a_valid_task_is_read_as_the_plan_that_it_holds_but_for_ids_and_spans(ta
     budgets = tuple(replace(budget, said=()) for budget in task.constraints.budgets)
     avoid = tuple(replace(one, said=()) for one in task.constraints.avoid)
     gates = tuple(replace(one, said=()) for one in task.constraints.only_gates)
-    bare = replace(task.constraints, budgets=budgets, reserve_said=(), avoid=avoid, only_gates=gates)
+    slow = tuple(replace(one, said=()) for one in task.constraints.slow)
+    bare = replace(task.constraints, budgets=budgets, reserve_said=(), avoid=avoid, only_gates=gates, slow=slow)
     assert draft.constraints == bare
 
 

@@ -356,3 +356,37 @@ EXPERIMENTS: list[tuple[str, str, str]] = [
         "for Take(4, of Half(east)): [nitrate]",
     ),
 ]
+
+#: Requests about earlier missions.
+EARLIER: list[tuple[str, str]] = [
+    ("Fotografía los árboles no visitados ayer.", "for Excluding(DoneEarlier(calendar yesterday)): [picture]"),
+    (
+        "Fotografía los árboles que no hemos visitado desde el lunes.",
+        "for Excluding(DoneEarlier(first_day mon)): [picture]",
+    ),
+    (
+        "Fotografía los árboles de la fila 3 que no se fotografiaron la semana pasada.",
+        "for Excluding(DoneEarlier(take_thermal_picture, calendar last_week), of Rows(3, 3)): [picture]",
+    ),
+    (
+        "Fotografía todos los árboles de la fila 3 excepto los visitados ayer.",
+        "for Excluding(DoneEarlier(calendar yesterday), of Rows(3, 3)): [picture]",
+    ),
+    (
+        "Fotografía los 10 árboles más calientes de la semana pasada.",
+        "for TopEarlier(canopy_temperature, 10, calendar last_week): [picture]",
+    ),
+    (
+        "Mide el CO2 donde el CO2 fue alto la semana pasada.",
+        "for WhereEarlier(co2, gt, 500, ppm, calendar last_week): [co2]",
+    ),
+    (
+        "Mide el CO2 en los árboles donde estaba por encima de 450 ppm la última vez.",
+        "for WhereEarlier(co2, gt, 450, ppm, missions 1): [co2]",
+    ),
+    ("Fotografía los árboles que no alcanzamos ayer.", "for DoneEarlier(left_out, calendar yesterday): [picture]"),
+    ("Fotografía los árboles que fallaron en la última misión.", "for DoneEarlier(failed, missions 1): [picture]"),
+    ("Mide el CO2 en los árboles nunca medidos.", "for Excluding(DoneEarlier(co2)): [co2]"),
+    ("Fotografía los árboles pulverizados hace menos de una semana.", "for DoneEarlier(spray, days 7): [picture]"),
+    ("Fotografía los árboles no visitados en los últimos 3 días.", "for Excluding(DoneEarlier(days 3)): [picture]"),
+]

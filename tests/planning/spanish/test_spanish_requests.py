@@ -16,7 +16,7 @@ from fieldhand.request_check import mismatches
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.loader import open_site
 from planning.english.outlines import outline
-from planning.spanish.requests import EXPERIMENTS, NOT_PLANNED, PLANNED
+from planning.spanish.requests import EARLIER, EXPERIMENTS, NOT_PLANNED, PLANNED
 from support.requests import english, orchards, rows
 from support.requests.inserted import with_word
 
@@ -25,7 +25,7 @@ UNKNOWN = ("despacio", "mañana", "púrpura", "quizás", "xyzzy", "nunca")
 HUSKY, AMIGA = load_robot("husky"), load_robot("amiga")
 
 
-@pytest.mark.parametrize(("request_", "plan"), PLANNED)
+@pytest.mark.parametrize(("request_", "plan"), [*PLANNED, *EARLIER])
 def test_a_request_is_planned_with_every_word(request_: str, plan: str) -> None:
     outcome = BuiltinPlanner().plan(request_, DEMO, HUSKY)
     assert isinstance(outcome, Planned), outcome

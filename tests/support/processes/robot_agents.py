@@ -50,6 +50,7 @@ class RobotAgentInProcess:
     Attributes:
         slept: Seconds that the agent let callers with a wrong token wait.
         seconds: On the clock of its gate.
+        simulated: It counts simulated missions among the earlier ones.
     """
 
     folder: Path
@@ -63,6 +64,7 @@ class RobotAgentInProcess:
     token: str | None = TOKEN
     slept: list[float] = field(default_factory=list)
     seconds: float = 0.0
+    simulated: bool = False
 
     def __post_init__(self) -> None:
         self.trusted = TrustStore(self.folder / "config")
@@ -80,6 +82,7 @@ class RobotAgentInProcess:
             conclude=lambda given: self.conclude(given),
             now=lambda: self.now(),
             zone=self.zone,
+            simulated=self.simulated,
         )
         self.app: FastAPI = create_agent(
             self.mission_store,

@@ -115,6 +115,8 @@ PLANNED = [
     ("husky", "Could the Husky trundle over to tree 12 and take a thermal?", "go TreeIs(12); picture"),
     ("husky", "The CO2 must be measured at tree 7.", "co2 @ TreeIs(7)"),
     ("husky", "Look at tree 12 with the thermal camera.", "picture @ TreeIs(12)"),
+    ("husky", "check trees 4 and 5", "for UnionOf(TreeIs(4)+TreeIs(5)): [picture]"),
+    ("husky", "Survey the orchard.", "for Trees: [picture]"),
     (
         "husky",
         "Maximise the number of trees photographed. Distance driven not over 100 m.",
@@ -1080,7 +1082,7 @@ ASKED = [
     ("husky", "take 2 pictures at the corners", "'take 2 pictures at the corners': which is meant?"),
     ("husky", "take 6 pictures at trees 4, 5 and 6", "'take 6 pictures at trees 4, 5 and 6': which is meant?"),
     ("husky", "measure tree 4", "'measure tree 4': which is meant?"),
-    ("husky", "check trees 4 and 5", "'check trees 4 and 5': which is meant?"),
+    ("husky", "test trees 4 and 5", "'test trees 4 and 5': which is meant?"),
     (
         "husky",
         "Take a picture and a CO2 reading at tree 4. If it is low, go to tree 5.",
@@ -1092,7 +1094,7 @@ ASKED = [
         "'If it is low': which is meant?",
     ),
     ("husky", "Take a picture of all 12 trees.", "'Take a picture of all 12 trees': which is meant?"),
-    ("husky", "Survey the orchard.", "'Survey the orchard': which is meant?"),
+    ("husky", "Monitor the orchard.", "'Monitor the orchard': which is meant?"),
     ("husky", "Take a picture of the western edge.", "'Take a picture of the western edge': which is meant?"),
     ("husky", "take a picture of the northern half", "'take a picture of the northern half': which is meant?"),
     ("husky", "Photograph the whole orchard.", "'Photograph the whole orchard': which is meant?"),
@@ -1100,7 +1102,7 @@ ASKED = [
 
 REFUSED = [
     ("husky", "take either a CO2 reading or a picture at tree 4", "each word is known, but not what they say together"),
-    ("husky", "Take a picture of tree 4. Dig a hole at tree 5.", "'Dig' asks for work that husky has no tool for"),
+    ("husky", "Take a picture of tree 4. Dig a hole at tree 5.", "husky cannot dig: no action 'dig'"),
     (
         "husky",
         "If the battery is below 30 %, return.",
@@ -1172,11 +1174,11 @@ REFUSED = [
         "take a picture at tree 4. If it is between 40 and 30, take a CO2 reading",
         "'between 40 and 30': no value lies between 40 and 30",
     ),
-    ("husky", "dig a hole at tree 4", "'dig' asks for work that husky has no tool for"),
+    ("husky", "dig a hole at tree 4", "husky cannot dig: no action 'dig'"),
     (
         "husky",
         "measure soil moisture at tree 4",
-        "'measure soil moisture' asks for something that husky does not record",
+        "husky cannot read the soil moisture: no action 'read_soil_moisture'",
     ),
     (
         "husky",

@@ -12,6 +12,7 @@ PLANNED = [
         "go TreeIs(30); picture; for UnionOf(AlongRow(1)+AlongRow(1, up)): [picture]",
     ),
     ("husky", "Photograph row 2 from end to end.", "for Rows(2, 2): [picture]"),
+    ("husky", "take pictures of rows of Carmel trees", "for Rows(of Where(variety, eq, Carmel)): [picture]"),
     (
         "husky",
         "Walk down row 3 and if a tree is yellow take a picture.",
@@ -1355,7 +1356,6 @@ REFUSED = [
         "take pictures of the row with the oldest tree",
         "'with the oldest tree' does not fit at this point in 'take pictures of the row with the oldest tree'",
     ),
-    ("husky", "take pictures of rows of Carmel trees", "'rows of Carmel trees': a row is not chosen by its trees"),
     (
         "husky",
         "take a picture of every tree in row 3 every 10 m",
@@ -1399,7 +1399,7 @@ REFUSED = [
     (
         "husky",
         "take a soil sample at the start of row 3",
-        "'take a soil sample' asks for work that husky has no tool for",
+        "'take a soil sample' asks for work that husky has no action for",
     ),
     ("husky", "put the robot in row 3", "each word is known, but not what they say together"),
     (

@@ -25,7 +25,6 @@ from fieldhand_bench.missions.case_form import (
     CaseForm,
     EndForm,
     ExpectForm,
-    Form,
     OffsetForm,
     PlaceForm,
     StepForm,
@@ -33,6 +32,7 @@ from fieldhand_bench.missions.case_form import (
 )
 from fieldhand_bench.missions.case_site import CaseSite, load_case_site
 from fieldhand_bench.missions.cases import Case, CaseWorld, Expected
+from fieldhand_bench.missions.form import Form
 from fieldhand_bench.missions.places import Attributes, CasePlace, Positions
 
 BUILTIN = "builtin"
@@ -130,6 +130,7 @@ def _case(form: CaseForm, book: BookForm, path: Path, loaders: _Loaders) -> Case
         runs=form.runs,
         source=str(path),
         task=form.task or "",
+        earlier=None if form.earlier is None else form.earlier.records(),
     )
 
 
@@ -161,11 +162,12 @@ def _fits(expected: Expected, case_site: CaseSite, where: str) -> None:
     """Raise a CaseError if the site lacks a tree, an attribute, a marker or a zone that is expected."""
     if isinstance(expected.end, str) and expected.end not in case_site.markers:
         raise CaseError(f"the site has no {expected.end} marker", where=where, advice="expect another end")
-    for kept in expected.keeps_from:
+    near = (*expected.keeps_from, *(one.near for one in expected.slow_near))
+    for kept in near:
         if kept.zone and kept.zone not in case_site.zones:
             raise CaseError(f"the site has no zone '{kept.zone}'", where=where, advice="name a polygon of its file")
     ends = (expected.end,) if isinstance(expected.end, CasePlace) else ()
-    kept_places = (kept.trees for kept in expected.keeps_from)
+    kept_places = (kept.trees for kept in near)
     for place in (*(step.at for step in expected.steps or ()), expected.at_all, *ends, *kept_places):
         for demand in place.demands:
             match demand:

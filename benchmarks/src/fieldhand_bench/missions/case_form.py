@@ -8,9 +8,7 @@ from typing import Annotated, Any, Literal
 from pydantic import (
     AfterValidator,
     AwareDatetime,
-    BaseModel,
     BeforeValidator,
-    ConfigDict,
     Field,
     StrictBool,
     StrictInt,
@@ -18,8 +16,10 @@ from pydantic import (
 )
 
 from fieldhand_bench.missions import places
+from fieldhand_bench.missions.case_earlier import EarlierForm
 from fieldhand_bench.missions.case_site import CornerName
-from fieldhand_bench.missions.cases import Expected, ExpectedStep, ExpectedWork, KeptFrom, MarkerName
+from fieldhand_bench.missions.cases import Expected, ExpectedStep, ExpectedWork, KeptFrom, MarkerName, SlowWithin
+from fieldhand_bench.missions.form import Form
 from fieldhand_bench.missions.places import ANYWHERE, CasePlace, Demand, Side
 
 
@@ -62,17 +62,6 @@ _QUARTERS: Mapping[str, tuple[Side, Side]] = {
 #: Defaults of keys that qualify another key, and the keys that each of them qualifies.
 _NEXT_TO, _NEAR, _FAR, _MOST_M = 4, 8, 0.8, 6.0
 _MORE_ABOUT = {"rank": ("next_to", "near"), "fraction": ("far",), "tol_m": ("most",), "toward": ("offset",)}
-
-
-class Form(BaseModel):
-    """A part of the file, which has the declared keys and no others."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-    @classmethod
-    def keys(cls) -> tuple[str, ...]:
-        """Return the keys that it may have."""
-        return tuple(field.alias or name for name, field in cls.model_fields.items())
 
 
 class OffsetForm(Form):
@@ -206,6 +195,16 @@ class KeptFromForm(Form):
         )
 
 
+class SlowForm(KeptFromForm):
+    """A zone or trees near which every drive is slow: ``{zone: pond, m: 5, most_m_s: 0.5}``."""
+
+    most_m_s: Above0
+
+    def slow(self) -> SlowWithin:
+        """Return the ground as used by the judge."""
+        return SlowWithin(near=self.kept(), most_m_s=self.most_m_s)
+
+
 class WorkForm(Form):
     """Work along paths that must be done."""
 
@@ -226,7 +225,7 @@ class ExpectForm(Form):
     steps: tuple[StepForm, ...] | None = None
     order: Literal["any"] | None = None
     count_only: Annotated[dict[str, BoundsPair], Field(min_length=1)] | None = None
-    distinct_trees: dict[str, BoundsPair] = {}
+    distinct_trees: dict[str, BoundsPair] = Field(default_factory=dict)
     at_all: PlaceForm | None = None
     worked: tuple[WorkForm, ...] = ()
     free_points: StrictBool = False
@@ -242,6 +241,7 @@ class ExpectForm(Form):
     status: Literal["completed", "returned", "faulted", "aborted"] = "completed"
     end: EndForm | None = None
     keeps_from: tuple[KeptFromForm, ...] = ()
+    slow_near: tuple[SlowForm, ...] = ()
 
     @model_validator(mode="after")
     def _require_content(self) -> ExpectForm:
@@ -301,6 +301,7 @@ class ExpectForm(Form):
             status=self.status,
             end=None if self.end is None else self.end.marker or self.end.place(),
             keeps_from=tuple(one.kept() for one in self.keeps_from),
+            slow_near=tuple(one.slow() for one in self.slow_near),
         )
 
 
@@ -310,7 +311,7 @@ class WorldForm(Form):
     The other keys are those of a world file.
     """
 
-    readings: dict[str, Any] = {}
+    readings: dict[str, Any] = Field(default_factory=dict)
     events: tuple[dict[str, Any], ...] = ()
     charge_percent: Above0 = 100.0
     expect: ExpectForm
@@ -332,6 +333,7 @@ class CaseForm(Form):
     runs: tuple[AwareDatetime, ...] = ()
     worlds: Annotated[tuple[WorldForm, ...], Field(min_length=1)] | None = None
     task: Text | None = None
+    earlier: EarlierForm | None = None
 
     @model_validator(mode="after")
     def _one_way(self) -> CaseForm:

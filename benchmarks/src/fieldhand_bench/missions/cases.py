@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Literal
 
 from fieldhand.execution.drivers.simulation.world import World
+from fieldhand.site.earlier_missions import EarlierMissions
 from fieldhand_bench.missions.places import ANYWHERE, CasePlace
 
 MarkerName = Literal["start", "end"]
@@ -31,6 +32,19 @@ class ExpectedStep:
     captures: int = 1
     at: CasePlace = ANYWHERE
     label: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SlowWithin:
+    """Ground on which every drive is slow.
+
+    Attributes:
+        near: Zone or trees, and the distance within which it is slow.
+        most_m_s: Highest speed there in m/s.
+    """
+
+    near: KeptFrom
+    most_m_s: float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,6 +102,7 @@ class Expected:
         waited_s: Time for which it stands still because of events, seconds.
         status: Final status of the mission.
         keeps_from: What every drive keeps away from.
+        slow_near: Where every drive is slow.
         end: Final position: a marker, or a place that the nearest tree must match. None for anywhere.
     """
 
@@ -110,6 +125,7 @@ class Expected:
     status: str = "completed"
     end: CasePlace | MarkerName | None = None
     keeps_from: tuple[KeptFrom, ...] = ()
+    slow_near: tuple[SlowWithin, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -135,6 +151,7 @@ class Case:
         runs: First instants at which the mission is due, for a robot whose clock shows UTC, if it is approved on
             1 January 2026 at 00:00 UTC; none for a mission that begins when it is started.
         task: The same mission as the draft of a Task (XML), as a language model would write it; empty for none.
+        earlier: What earlier missions did on the site; None if nothing is on record.
     """
 
     id: str
@@ -146,3 +163,4 @@ class Case:
     runs: tuple[datetime, ...] = ()
     source: str = ""
     task: str = ""
+    earlier: EarlierMissions | None = None

@@ -11,8 +11,8 @@ import shapely
 from shapely.geometry import LineString
 from shapely.geometry.base import BaseGeometry
 
-from fieldhand_bench.missions.case_site import CaseSite
-from fieldhand_bench.missions.cases import Bounds, Expected
+from fieldhand_bench.missions.case_site import CaseSite, Points
+from fieldhand_bench.missions.cases import Bounds, Expected, KeptFrom
 from fieldhand_bench.missions.log import Done, Log
 from fieldhand_bench.missions.matching import describe, mismatch
 
@@ -35,6 +35,7 @@ def judge(site: CaseSite, expected: Expected, log: Log) -> tuple[str, ...]:
         *_distances(expected, log),
         *_pauses(expected, log),
         *_too_near(site, expected, log),
+        *_too_fast(site, expected, log),
         *_end(site, expected, log),
     )
 
@@ -129,15 +130,34 @@ def _pauses(expected: Expected, log: Log) -> Iterator[str]:
 
 def _too_near(site: CaseSite, expected: Expected, log: Log) -> Iterator[str]:
     for kept in expected.keeps_from:
-        shape: BaseGeometry
-        if kept.zone:
-            shape, name = site.zones[kept.zone], f"the zone '{kept.zone}'"
-        else:
-            trees = [tree for tree in range(len(site.xy)) if kept.trees.holds(site, tree, {})]
-            shape, name = shapely.MultiPoint(site.xy[trees]), f"the trees {kept.trees.words}"
+        shape, name = _ground(site, kept)
         away = min((float(shape.distance(shapely.LineString(path))) for path in log.paths), default=math.inf)
         if away < kept.metres - _TOLERANCE_M:
             yield f"it drove {away:.1f} m from {name}, {kept.metres:g} m at least wanted"
+
+
+def _too_fast(site: CaseSite, expected: Expected, log: Log) -> Iterator[str]:
+    for slow in expected.slow_near:
+        shape, name = _ground(site, slow.near)
+        ground = shape.buffer(slow.near.metres - _TOLERANCE_M)
+        fast = [v for path, v in log.driven if v > slow.most_m_s * 1.001 and _enters(path, ground)]
+        if fast:
+            yield (
+                f"it drove at {max(fast):.2f} m/s within {slow.near.metres:g} m of {name}, "
+                f"{slow.most_m_s:g} m/s at most wanted"
+            )
+
+
+def _enters(path: Points, ground: BaseGeometry) -> bool:
+    return len(path) > 1 and float(shapely.LineString(path).intersection(ground).length) > _TOLERANCE_M
+
+
+def _ground(site: CaseSite, kept: KeptFrom) -> tuple[BaseGeometry, str]:
+    """Return the outline of a zone or trees, and their name."""
+    if kept.zone:
+        return site.zones[kept.zone], f"the zone '{kept.zone}'"
+    trees = [tree for tree in range(len(site.xy)) if kept.trees.holds(site, tree, {})]
+    return shapely.MultiPoint(site.xy[trees]), f"the trees {kept.trees.words}"
 
 
 def _end(site: CaseSite, expected: Expected, log: Log) -> Iterator[str]:

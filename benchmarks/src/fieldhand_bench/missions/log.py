@@ -9,6 +9,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+import shapely
+import shapely.ops
 
 from fieldhand.errors import CaseError
 from fieldhand_bench.missions.case_site import CaseSite, Points
@@ -41,6 +43,7 @@ class Log:
     Attributes:
         done: Actions that succeeded, in their order.
         stops: (k, 2), stops at which an action was done, metres east and north.
+        driven: Parts of drives that were driven at one commanded speed: (n, 2) corners in metres, and the speed in m/s.
         paths: (n, 2) each, corners of the drives, metres east and north.
         worked: Metres with each action on along paths, each part as (k, 2) corners, metres east and north.
         travelled_m: Distance driven in total, metres.
@@ -63,6 +66,7 @@ class Log:
     fastest_m_s: float = 0.0
     stands: Mapping[int, int] = field(default_factory=dict)
     paths: tuple[Points, ...] = ()
+    driven: tuple[tuple[Points, float], ...] = ()
     charges: int = 0
     waited_s: float = 0.0
 
@@ -77,6 +81,8 @@ def read_log(lines: Iterable[str], site: CaseSite) -> Log:
     stops: list[Points] = []
     paths: list[Points] = []
     worked: list[tuple[str, Points]] = []
+    driven: list[tuple[Points, float]] = []
+    goal: object = None
     travelled, status, end = 0.0, None, None
     lasts_s = fastest = left_s = waited_s = 0.0
     charges = 0
@@ -92,11 +98,18 @@ def read_log(lines: Iterable[str], site: CaseSite) -> Log:
             lasts_s = max(lasts_s, now_s)
             match event.get("event"), event.get("status"):
                 case "drive", _:
-                    left_s = now_s
+                    again, goal = (
+                        goal == (event.get("node"), event.get("place")),
+                        (event.get("node"), event.get("place")),
+                    )
+                    left_s = left_s if again else now_s
                     if event.get("path"):
                         paths.append(site.metres(np.array(event["path"], dtype=np.float64).reshape(-1, 2)))
+                        if again and driven:
+                            driven[-1] = _up_to(driven[-1][0], paths[-1][0]), driven[-1][1]
+                        driven.append((paths[-1], float(event.get("speed_m_s") or math.inf)))
                 case "arrive", _:
-                    stood = _at(event, site)
+                    stood, goal = _at(event, site), None
                     if now_s > left_s:
                         fastest = max(fastest, float(event["leg_m"]) / (now_s - left_s))
                 case "action", "success":
@@ -132,10 +145,20 @@ def read_log(lines: Iterable[str], site: CaseSite) -> Log:
         fastest_m_s=fastest,
         stands={tree: len(known) for tree, known in stands.items()},
         paths=tuple(paths),
+        driven=tuple(driven),
         worked=tuple(worked),
         charges=charges,
         waited_s=waited_s,
     )
+
+
+def _up_to(path: Points, end: Points) -> Points:
+    """Return the part of a path up to a point on it; the whole of it if the point is elsewhere."""
+    line, point = shapely.LineString(path), shapely.Point(end)
+    if line.distance(point) > _ONE_STOP_M:
+        return path
+    part = shapely.ops.substring(line, 0.0, line.project(point))
+    return np.array(part.coords).reshape(-1, 2)
 
 
 def _at(event: Mapping[str, Any], site: CaseSite) -> Points:

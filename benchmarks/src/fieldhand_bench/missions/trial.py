@@ -228,7 +228,7 @@ def _other_runs(case: Case, task: Task, site: Site) -> str:
 def _plan(case: Case, site: Site, robot: RobotProfile, planner: Planner) -> Outcome | ModelError:
     """Plan the request of a case; return a ModelError, so that it fails this case and not the others."""
     try:
-        return mission.plan(case.request, site, robot, planner)
+        return mission.plan(case.request, site, robot, planner, earlier=case.earlier)
     except ModelError as error:
         return error
 

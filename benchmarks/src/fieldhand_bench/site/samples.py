@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from fieldhand.places.reading_series import EXAMPLE_QUANTITY
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import (
     SELECTORS,
@@ -20,6 +21,7 @@ from fieldhand.places.selectors import (
     Top,
     Where,
 )
+from fieldhand.site.earlier_missions import EarlierCapture, EarlierMission, EarlierMissions, EarlierValue
 from fieldhand.site.model import Site
 from fieldhand.terms import Side
 
@@ -43,6 +45,22 @@ def samples(site: Site) -> Mapping[str, Selector]:
         "10 trees not visited, nearest first": Take(count=10, of=NotVisited(of=Half(side="west"))),
     }
     return {cls.__name__: cls.example(site) for cls in SELECTORS} | nested
+
+
+def with_records(site: Site) -> Site:
+    """Return the site with an earlier mission, which took a thermal picture of every third tree."""
+    at = "2026-06-10T08:00:00+00:00"
+    captures = tuple(
+        EarlierCapture(
+            place=tree.place.id,
+            at=at,
+            action="take_thermal_picture",
+            values=(EarlierValue(name=EXAMPLE_QUANTITY, value=31.0, unit="degC"),),
+        )
+        for tree in site.trees[::3]
+    )
+    mission = EarlierMission(id="m1", begun=at, captures=captures)
+    return site.with_earlier(EarlierMissions(as_of="2026-06-17T08:00:00+00:00", missions=(mission,)))
 
 
 def _half_of_first_rows(site: Site) -> Side:

@@ -123,7 +123,7 @@ class _LogReader:
 
     def __init__(self, started: Started) -> None:
         self._charge, self._at_s, self._travelled = started.charge_percent, started.t, 0.0
-        self._astray = False
+        self._astray, self._parts = False, 0
         self._steps: list[MeasuredStep] = []
 
     def read(self, events: Sequence[Event]) -> list[MeasuredStep]:
@@ -132,7 +132,7 @@ class _LogReader:
             match event:
                 case Driving():
                     # Until the next arrival nobody knows how far it came.
-                    self._astray = True
+                    self._astray, self._parts = True, self._parts + 1
                 case Arrived():
                     self._arrive(event, before)
                 case Acted():
@@ -152,8 +152,9 @@ class _LogReader:
         return self._steps
 
     def _arrive(self, event: Arrived, before: Event | None) -> None:
-        leg = before if isinstance(before, Driving) else None
-        self._astray = False
+        # A drive in parts, after a pause or at several speeds, is no measurement of one speed.
+        leg = before if isinstance(before, Driving) and self._parts == 1 else None
+        self._astray, self._parts = False, 0
         step = MeasuredStep(
             kind="leg",
             planned_m=leg.planned_m if leg else 0.0,

@@ -285,7 +285,7 @@ def _record(
     ]
     if budgets:
         yield "Budget", f"at most {listed(budgets)}"
-    for text in say_ways(task.constraints):
+    for text in say_ways(task.constraints, robot):
         yield "Way", text
     for watch in task.composition.watches:
         yield "Watched", say_watch(watch, robot)

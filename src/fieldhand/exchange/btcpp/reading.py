@@ -14,6 +14,7 @@ from fieldhand.errors import TaskError
 from fieldhand.exchange.btcpp.elements import Elements, Tag
 from fieldhand.exchange.btcpp.nodes import NodeReader
 from fieldhand.exchange.btcpp.vocabulary import BEGIN, EXIT
+from fieldhand.site.earlier_missions import EarlierMissions
 from fieldhand.task import plan as p
 from fieldhand.task.build import FAULTED_EXITS, make_task
 from fieldhand.task.capabilities import Capabilities
@@ -40,6 +41,7 @@ class _Frames:
     faulted: tuple[FaultedExit, ...] = FAULTED_EXITS
     watches: tuple[Watch, ...] = ()
     timing: Timing | None = None
+    earlier: EarlierMissions | None = None
 
 
 def read_tree(
@@ -91,6 +93,7 @@ def read_tree(
         watches=frames.watches,
         timing=frames.timing,
     )
+    made = replace(made, earlier=frames.earlier)
     if not frames.id or not _fits(frames.command, plan):
         return made
     composition = replace(made.composition, plan=plan)
@@ -144,7 +147,7 @@ def _mission(tree: _Element, reader: NodeReader, frames: _Frames) -> tuple[_Fram
     if tag.kind != "Sequence" or not inside or inside[0].kind != BEGIN:
         return frames, reader.node(top)
     begin = inside[0]
-    elements.ports(begin, ("task", "command", "constraints", "resources", "watches", "timing"))
+    elements.ports(begin, ("task", "command", "constraints", "resources", "watches", "timing", "earlier"))
     frames = _begun(begin, elements, frames)
     rest = inside[1:]
     if rest and rest[0].kind == "Script":
@@ -168,6 +171,7 @@ def _begun(begin: Tag, elements: Elements, frames: _Frames) -> _Frames:
     command = parts("command", Command, 0, 1)
     constraints = parts("constraints", Constraints, 0, 1)
     timing = parts("timing", get_args(Timing), 0, 1) if begin.ports.get("timing") else ()
+    earlier = parts("earlier", EarlierMissions, 0, 1) if begin.ports.get("earlier") else ()
     return replace(
         frames,
         id=begin.ports.get("task", ""),
@@ -176,6 +180,7 @@ def _begun(begin: Tag, elements: Elements, frames: _Frames) -> _Frames:
         resources=parts("resources", Resource, 0, 9) if "resources" in begin.ports else (),
         watches=parts("watches", Watch, 0, 999) if "watches" in begin.ports else (),
         timing=timing[0] if timing else None,
+        earlier=earlier[0] if earlier else None,
         faulted=(),
     )
 

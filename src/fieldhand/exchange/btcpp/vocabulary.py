@@ -88,6 +88,7 @@ def leaves(capabilities: Capabilities) -> tuple[Leaf, ...]:
     resources = Port(name="resources", type=_TEXT, default="", about="Robot and site that it was planned for, as XML")
     watches = Port(name="watches", type=_TEXT, default="", about="Conditions checked throughout the mission, as XML")
     timing = Port(name="timing", type=_TEXT, default="", about="When the mission runs, as XML")
+    earlier = Port(name="earlier", type=_TEXT, default="", about="Earlier missions that the plan depends on, as XML")
     places = Port(name="places", type=_PLACES, direction="output", about="The places found, in the order to visit them")
     first = Port(name="places", type=_TEXT, about="First place of each step, as XML, in the order of the steps")
     order = Port(name="order", type=_STEPS, direction="output", about="Numbers of the steps from 1, best order first")
@@ -98,7 +99,7 @@ def leaves(capabilities: Capabilities) -> tuple[Leaf, ...]:
     series = Port(name="reading", type=_TEXT, about="Name of the readings of which none is kept from before")
     tested = Port(name="condition", type=_TEXT, about="Condition on all readings of a name, as XML")
     ours = (
-        Leaf(id=BEGIN, kind="Action", ports=(task, *frames, resources, watches, timing)),
+        Leaf(id=BEGIN, kind="Action", ports=(task, *frames, resources, watches, timing, earlier)),
         Leaf(id=GO_TO, kind="Action", ports=(_PLACE, _LABEL)),
         Leaf(id=RESOLVE, kind="Action", ports=(_SELECT, *_ports(ForEach, beside=("label",)), places)),
         Leaf(id=ORDER, kind="Action", ports=(first, order)),

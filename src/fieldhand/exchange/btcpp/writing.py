@@ -101,6 +101,7 @@ class _TreeWriter:
             constraints=encode_parts([task.constraints]),
             watches=encode_parts(composition.watches),
             timing=encode_parts([] if task.timing is None else [task.timing]),
+            earlier=encode_parts([] if task.earlier is None else [task.earlier]),
             resources=encode_parts(task.resources),
         )
         stopped = _element(EXIT, then=composition.nominal)

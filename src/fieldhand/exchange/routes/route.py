@@ -106,6 +106,8 @@ def planned(task: Task, site: Site, robot: RobotProfile) -> ExportedRoute:
         DriveFault: A place cannot be reached.
     """
     found = branches(task, site, robot)
+    if not found.walks and found.broken:
+        raise found.broken[0].error
     walked = found.walks[0]
     known = _Certain(found.walks if found.complete else (walked,), complete=found.complete)
     first = next((s.context.here for s in walked.steps), site.start)

@@ -431,6 +431,17 @@ def read_summary(path: Path) -> tuple[int, tuple[tuple[str, str], ...], Record |
     )
 
 
+def mission_of(path: Path) -> str:
+    """Return the SHA-256 of the mission's content with which a journal was created; empty if it has none.
+
+    Raises:
+        JournalError: It cannot be read.
+    """
+    with _as_journal_error(path), closing(_open(path, None)) as db:
+        found = db.execute("SELECT value FROM about WHERE key = 'mission'").fetchone()
+    return "" if found is None else str(found[0])
+
+
 def lines_after(path: Path, after: int, most: int) -> tuple[tuple[int, str, str], ...]:
     """Return (number, time, line) of the events after number ``after``, in order, at most ``most``.
 

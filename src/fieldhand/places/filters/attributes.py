@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from fieldhand.places.filters.where import Where
 
 
-_COMPARE: Mapping[Test, Callable[[Any, Any], Any]] = {
+COMPARISONS: Mapping[Test, Callable[[Any, Any], Any]] = {
     "lt": operator.lt,
     "le": operator.le,
     "gt": operator.gt,
@@ -62,7 +62,7 @@ def where(spots: PlaceGroup, selector: Where, notes: ResolutionNotes) -> PlaceGr
     numeric = ~np.isnan(mine.numbers)
     passed = np.zeros(len(spots), dtype=bool)
     if not math.isnan(wanted):
-        passed |= numeric & _COMPARE[selector.test](mine.numbers, wanted)
+        passed |= numeric & COMPARISONS[selector.test](mine.numbers, wanted)
     if selector.test in ("eq", "ne"):
         text = _text(selector.value)
         same = [k for k, known in enumerate(column.texts) if known == text]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from fieldhand.errors import NoPlaceError
 from fieldhand.language import message
 from fieldhand.places.areas.half import Half
 from fieldhand.places.count_range import CountRange, at_most
@@ -36,13 +37,19 @@ class Excluding(FromGroup):
         return cls(places=Half(side="south"))
 
     def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
-        return of.without(resolution.spots(self.places))
+        if not any(part.uses_records for part in self.places.walk()):
+            return of.without(resolution.spots(self.places))
+        try:
+            return of.without(resolution.spots(self.places))
+        except NoPlaceError as error:  # earlier missions did nothing of the kind, so that nothing is left out
+            notes.remark(message("nothing is left out: {why}", why=error.what))
+            return of
 
     def ground(self, resolution: Resolution) -> BaseGeometry:
         return self.of.ground(resolution).difference(self.places.ground(resolution))
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
-        return wording.phrase(self.of).keeping(after=message("other than {place}", place=self.places.it(wording)))
+        return wording.phrase(self.of).keeping(after=self.places.left_out(wording))
 
     @property
     def size(self) -> CountRange:

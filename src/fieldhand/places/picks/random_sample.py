@@ -43,9 +43,9 @@ class RandomSample(Counted):
         from fieldhand.places.filters.zones import outside_keep_outs
 
         free = outside_keep_outs(of, notes).once(self.count)
-        self.need(free, resolution)
+        count = self.enough(free, resolution, notes)
         notes.rule = message("drawn by seed {seed}", seed=self.seed)
-        return drawn(free, self.count, self.seed)
+        return drawn(free, count, self.seed)
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
         group, seed = wording.phrase(self.of).group(), self.seed

@@ -37,8 +37,7 @@ class Spread(Counted):
         from fieldhand.places.picks.far_apart import far_apart
 
         free = outside_keep_outs(of, notes).once(self.count)
-        self.need(free, resolution)
-        return far_apart(free, self.count, notes)
+        return far_apart(free, self.enough(free, resolution, notes), notes)
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
         group = wording.phrase(self.of).group()

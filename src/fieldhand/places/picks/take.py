@@ -37,9 +37,9 @@ class Take(Counted):
         from fieldhand.places.neighbours.distances import short_drive
 
         free = outside_keep_outs(of, notes).once(self.count)
-        self.need(free, resolution)
+        count = self.enough(free, resolution, notes)
         notes.rule = "from the current place to the nearest, and from there to the next nearest"
-        return short_drive(free, resolution.context.here.xy, self.count)
+        return short_drive(free, resolution.context.here.xy, count)
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
         inner = wording.phrase(self.of)

@@ -43,11 +43,11 @@ class Top(Counted):
 
         known, numbers = with_number(of, self.attribute)
         notes.candidates = len(known)
-        self.need(known, resolution)
+        count = self.enough(known, resolution, notes)
         note_lacking(len(of) - len(known), self.attribute, notes)
         name = say_name(words_of(self.attribute))
         most = message("the lowest {name}", name=name) if self.lowest else message("the highest {name}", name=name)
-        return rank(known, numbers if self.lowest else -numbers, self.count, notes, most)
+        return rank(known, numbers if self.lowest else -numbers, count, notes, most)
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
         name = say_attribute(self.attribute)[0]

@@ -110,13 +110,14 @@ def _beside_edge(site: Site, xy: Floats, selector: Transect) -> Floats:
 
     At a spacing, those that would move by more than half of it are left out: an edge outside of the boundary has none.
     """
-    west, south, east, north = *xy.min(axis=0).tolist(), *xy.max(axis=0).tolist()
-    free = free_part(site, shapely.box(west - _NEAR_M, south - _NEAR_M, east + _NEAR_M, north + _NEAR_M))
+    (west, south), (east, north) = xy.min(axis=0) - _NEAR_M, xy.max(axis=0) + _NEAR_M
+    free = free_part(site, shapely.box(west, south, east, north))
     points = shapely.points(xy)
     ends = shapely.get_coordinates(shapely.shortest_line(points, free)).reshape(-1, 2, 2)
     moved = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
     near = moved <= selector.apart_m / 2.0 if selector.apart_m else np.ones(len(xy), dtype=bool)
-    return ends[near, 1]
+    stands: Floats = ends[near, 1]
+    return stands
 
 
 def _edge(site: Site, zone: str) -> list[LineString]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+import shapely
 
 from fieldhand.errors import PlaceError
 from fieldhand.language import counted, message
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
 def gaps_between(of: PlaceGroup, selector: Missing, notes: ResolutionNotes) -> PlaceGroup:
     """Return the gaps both of whose neighbours in the row are in the group, row after row.
 
+    Where a row passes a keep-out, such as a pond, no tree is missing.
+
     Raises:
         PlaceError: There are no rows, or no gaps there; the message says how many the whole site has.
     """
@@ -29,7 +32,10 @@ def gaps_between(of: PlaceGroup, selector: Missing, notes: ResolutionNotes) -> P
     gaps = empty_positions(site)
     inside = np.zeros(len(site.trees), dtype=bool)
     inside[of.index[of.is_tree]] = True
-    kept = np.flatnonzero(inside[gaps.before] & inside[gaps.after])
+    plantable = np.ones(len(gaps), dtype=bool)
+    for zone in site.zones_of("keep_out"):
+        plantable &= ~np.asarray(shapely.intersects_xy(zone.polygon, gaps.xy[:, 0], gaps.xy[:, 1]))
+    kept = np.flatnonzero(inside[gaps.before] & inside[gaps.after] & plantable)
     notes.candidates = len(gaps)
     notes.rule = message("empty positions between two trees of a row, by the spacing of the row")
     if not len(kept):

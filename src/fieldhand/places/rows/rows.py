@@ -53,7 +53,14 @@ class Rows(FromGroup):
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
         rows, single = self._rows_in_words()
-        return wording.phrase(self.of).of_rows(rows, one=single)
+        return wording.phrase(self.of).of_rows(rows, one=single, outer=self._outer_rows())
+
+    def _outer_rows(self) -> str:
+        """Return the first and the last row in words; empty if they are not the ends of a range that is named."""
+        first, last = self.first, self.last
+        if first == last or self.every != 1 or self.counted_from != "usual" or not (_rises(first) and _rises(last)):
+            return ""
+        return message("rows {first} and {last}", first=_bare(first), last=_bare(last))
 
     def _rows_in_words(self) -> tuple[str, bool]:
         """Return the rows in words ("row 3", "all rows"), and True if it is a single row."""

@@ -56,3 +56,10 @@ def forms_of(phrase: str) -> list[str]:
         made = [verb, verb + "s", verb + "ing", verb + "ed"]
     made += _PAST.get(verb, "").split()
     return [f"{form} {rest}".strip() for form in made]
+
+
+def base_form(verb: str) -> str:
+    """Return the base form of a verb in the present: "sprays" and "spraying" are "spray"."""
+    if verb.endswith("ing") and len(verb) > len("being"):
+        return verb[:-3]
+    return verb[:-1] if verb.endswith("s") and not verb.endswith("ss") else verb

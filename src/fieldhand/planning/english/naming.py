@@ -11,10 +11,13 @@ from typing import Any
 from fieldhand.planning.english.inflection import forms_of, plural_of
 from fieldhand.planning.english.vocabulary import vocabulary
 from fieldhand.robot.implement import rate_unit
-from fieldhand.robot.model import RobotProfile
+from fieldhand.robot.model import Action, RobotProfile
 from fieldhand.site.model import Site
 
 Phrase = tuple[str, ...]
+
+#: Words of an action that takes pictures.
+_PICTURES = frozenset({"picture", "photo", "image", "thermal picture"})
 
 #: Words of an attribute's name that say its unit, not what it is.
 _UNIT_WORDS = frozenset({"m", "kg", "years", "cm", "mm", "of", "the", "percent", "pct"})
@@ -46,6 +49,11 @@ class Naming:
     actions: tuple[str, ...] = ()
     quantities: tuple[str, ...] = ()
     parameters: tuple[tuple[str, str | float], ...] = ()
+
+
+def takes_pictures(action: Action) -> bool:
+    """Return True for the action of a camera."""
+    return not _PICTURES.isdisjoint(action.words)
 
 
 def split(phrase: str) -> Phrase:

@@ -54,9 +54,10 @@ class EnglishPlanner:
         """Plan a request without help if it is refused."""
         check_request(request)
         words = words_of(request)
+        earlier = _earlier(words, site, robot)
         if (timed := self._timed(request, words, site, robot, answers)) is not None:
             return timed
-        if found := _unplanned(early_wishes(words, lexicon_for(robot, site)), words, robot):
+        if found := _unplanned(early_wishes(words, lexicon_for(robot, site)), words, robot, earlier):
             from fieldhand.planning.refusals.helping import wish_reasons
 
             return Refused(reasons=tuple(wish_reasons(found, request, words, site, robot)), planner=NAME)
@@ -73,11 +74,12 @@ class EnglishPlanner:
         from fieldhand.planning.grammar.reader import composed
         from fieldhand.planning.grammar.times import asked_time, assumed_times, with_answer, without_times
 
-        times = without_times(words)
-        if (
-            times is None
-            or _unplanned(early_wishes(times.words, lexicon_for(robot, site)), times.words, robot)
-            or tuple(missing_blocks(times.words, site))
+        times = without_times(words, _earlier(words, site, robot))
+        if times is None:
+            return None
+        earlier = _earlier(times.words, site, robot)
+        if _unplanned(early_wishes(times.words, lexicon_for(robot, site)), times.words, robot, earlier) or tuple(
+            missing_blocks(times.words, site)
         ):
             return None
         answered = with_answer(times.part, answers)
@@ -102,8 +104,22 @@ class EnglishPlanner:
         return replace(outcome, task=replace(outcome.task, command=told))
 
 
-def _unplanned(wished: Sequence[Wish], words: Sequence[Word], robot: RobotProfile) -> list[Wish]:
-    """Return wishes without those that an event of the robot explains, and those to wait in sentences about one."""
+def _earlier(words: Sequence[Word], site: Site, robot: RobotProfile) -> frozenset[int]:
+    """Return the numbers of the words that state a time of earlier missions."""
+    from fieldhand.planning.grammar.earlier.past_words import past_words
+    from fieldhand.planning.grammar.english import camera_of
+
+    return past_words(words, lexicon_for(robot, site), camera_of(robot))
+
+
+def _unplanned(
+    wished: Sequence[Wish], words: Sequence[Word], robot: RobotProfile, earlier: frozenset[int]
+) -> list[Wish]:
+    """Return wishes without those that are of earlier missions, that an event of the robot explains, and to wait.
+
+    A wait in a sentence about an event is one of those that the event explains.
+    """
+    wished = [wish for wish in wished if not {*range(wish.first, wish.last)} <= earlier]
     if not wished or not robot.events:
         return list(wished)
     from fieldhand.planning.grammar.event_words import EventPatterns, in_event_sentences

@@ -52,6 +52,7 @@ class WishKind:
         aside: True if the rest of the request is a request without the words.
         rest: True if all that follows in the same clause belongs to it.
         offers: What is listed in the advice.
+        work: True if its first word is a verb for which the robot has no action.
         works: True if it is looked for only where the request asks for no work of an implement of the robot.
         example: Form of a request with the same purpose, with a placeholder for another request.
         said: Regular expressions of its words.
@@ -66,6 +67,7 @@ class WishKind:
     aside: bool
     rest: bool
     offers: Offers
+    work: bool
     works: bool
     example: str
     said: tuple[str, ...]
@@ -74,6 +76,11 @@ class WishKind:
     def waits(self) -> bool:
         """True if it asks to wait, which a plan can do until an event is over."""
         return "asks for waiting" in self.what
+
+    @property
+    def lacks_action(self) -> bool:
+        """True if it asks for something that an action of a robot could do."""
+        return self.offers == "actions"
 
     @cached_property
     def pattern(self) -> re.Pattern[str]:
@@ -205,6 +212,7 @@ def wish_kinds() -> tuple[WishKind, ...]:
             aside=known.get("aside", False),
             rest=known.get("rest", False),
             offers=known.get("offers", ""),
+            work=known.get("work", False),
             works=known.get("works", False),
             example=known.get("example", ""),
             said=tuple(known["said"]),

@@ -129,8 +129,11 @@ def _question_of_ways(plans: Sequence[Planned], request: str) -> PlanQuestion | 
     for plan in plans:
         answer = capitalised(joined(" ", say_ways(plan.task.constraints)))
         left[answer] = (*left.get(answer, ()), plan)
-    rules = (rule for plan in plans for rule in (*plan.task.constraints.avoid, *plan.task.constraints.only_gates))
-    spans = [span for rule in rules for span in rule.said]
+    limits = [plan.task.constraints for plan in plans]
+    said = [one.said for of in limits for one in of.avoid]
+    said += [one.said for of in limits for one in of.only_gates]
+    said += [one.said for of in limits for one in of.slow]
+    spans = [span for of_rule in said for span in of_rule]
     if len(left) < 2 or not spans:
         return None
     start, end = min(start for start, _ in spans), max(end for _, end in spans)

@@ -7,9 +7,13 @@ from collections.abc import Iterator, Sequence
 
 from fieldhand.language import message
 from fieldhand.language.words import COMPASS
-from fieldhand.planning.selections import as_beside, as_row_of
+from fieldhand.planning.english.naming import name_words
+from fieldhand.planning.selections import as_beside, as_row_of, rank_of
 from fieldhand.site.model import Site
 from fieldhand.task.plan import Node, Span, walk
+
+#: Words that say how good trees are, and not by which attribute.
+_JUDGED = re.compile(r"\b(?:worst|poorest|best|finest)\b", re.IGNORECASE)
 
 
 def assumed_ways(plan: Node, request: str, sides: Sequence[Span], site: Site) -> Iterator[str]:
@@ -69,6 +73,38 @@ def assumed_hands(plan: Node, request: str) -> Iterator[str]:
             hand=hand,
             side=COMPASS[side],
         )
+
+
+def assumed_qualities(plan: Node, request: str) -> Iterator[str]:
+    """Yield by which attribute "the worst" are chosen, if the request does not name it.
+
+    Args:
+        plan: Plan of the request.
+        request: Request as typed.
+    """
+    judged = _JUDGED.search(request)
+    if judged is None:
+        return
+    parts = (part for node in walk(plan) for part in (node.selector.walk() if node.selector else ()))
+    ranks = (rank for part in parts if (rank := rank_of(part)) is not None)
+    for attribute, lowest in dict.fromkeys(ranks):
+        name = " ".join(name_words(attribute))
+        if name.lower() in request.lower():
+            continue
+        if lowest:
+            yield message(
+                "'{said}' is read as: with the lowest {attribute}.",
+                context="assumption",
+                said=judged[0],
+                attribute=name,
+            )
+        else:
+            yield message(
+                "'{said}' is read as: with the highest {attribute}.",
+                context="assumption",
+                said=judged[0],
+                attribute=name,
+            )
 
 
 def assumed_wholes(plan: Node, request: str) -> Iterator[str]:

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from fieldhand.errors import PlaceError
+from fieldhand.errors import PlaceError, TaskError
 from fieldhand.places import selectors as s
+from fieldhand.places.context import Context
+from fieldhand.places.resolution import resolve
 from fieldhand.planning.grammar.dialogue.plans import with_selector
 from fieldhand.planning.grammar.meaning import WayRule
-from fieldhand.planning.selections import blocks_of, is_in_block, over, rows_of, swapped
+from fieldhand.planning.selections import as_excluding, blocks_of, is_in_block, over, rows_of, swapped
 from fieldhand.site.counting import find_row, rows_from
 from fieldhand.site.model import Site
 from fieldhand.site.planting import Block
@@ -40,6 +42,23 @@ def in_each_block(plan: p.Node, site: Site) -> Mapping[str, p.Node]:
     return {block.name: _of_block(plan, block) for block in fitting} if len(fitting) > 1 else {"": plan}
 
 
+def exceptions_leave_out(plan: p.Node, site: Site) -> bool:
+    """Return False if an exception of a plan leaves out nothing: "every Merlot vine except those in row 3"."""
+    selectors = (node.selector for node in p.walk(plan) if node.selector is not None)
+    parts = (as_excluding(part) for selector in selectors for part in selector.walk() if not part.relative)
+    return all(_leaves_out_some(part.of, part.places, site) for part in parts if part is not None)
+
+
+def _leaves_out_some(of: s.Selector, places: s.Selector, site: Site) -> bool:
+    """Return True if some places of a selector are left out of another one."""
+    here = Context(here=site.start)
+    try:
+        left_out = {place.id for place in resolve(places, site, here)}
+        return any(place.id in left_out for place in resolve(of, site, here))
+    except (PlaceError, TaskError):
+        return False
+
+
 def rules_in_each_block(ways: Ways, plan: p.Node, site: Site) -> Sequence[Ways]:
     """Return rules of where to drive for each block whose rows may be meant.
 
@@ -49,7 +68,7 @@ def rules_in_each_block(ways: Ways, plan: p.Node, site: Site) -> Sequence[Ways]:
     named = [
         rows
         for rule, _ in ways
-        for places, _ in rule.avoid
+        for places in (*(places for places, _ in rule.avoid), *(one.places for one in rule.slow))
         for rows in rows_of(places)
         if rows.first and not is_in_block(rows.of)
     ]
@@ -64,7 +83,9 @@ def rules_in_each_block(ways: Ways, plan: p.Node, site: Site) -> Sequence[Ways]:
 
 
 def _rule_of_block(rule: WayRule, block: Block) -> WayRule:
-    return replace(rule, avoid=tuple((_rows_of_block(places, block), metres) for places, metres in rule.avoid))
+    avoid = tuple((_rows_of_block(places, block), metres) for places, metres in rule.avoid)
+    slow = tuple(replace(one, places=_rows_of_block(one.places, block)) for one in rule.slow)
+    return replace(rule, avoid=avoid, slow=slow)
 
 
 def leaves_block_open(selector: s.Selector, site: Site) -> bool:

@@ -14,19 +14,18 @@ from typing import Any
 
 from fieldhand.planning.english.inflection import forms_of, plural_of
 from fieldhand.planning.english.lexicon import Lexicon, lexicon_for
-from fieldhand.planning.english.naming import NameEntry, Naming, Phrase, split
+from fieldhand.planning.english.naming import NameEntry, Naming, Phrase, split, takes_pictures
 from fieldhand.planning.english.spelling import respelt
 from fieldhand.planning.english.tokens import Word, ranges_of, words_of
 from fieldhand.planning.english.vocabulary import vocabulary
 from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.earlier.edges import earlier_edges
 from fieldhand.planning.grammar.event_words import NO_EVENTS, EventPatterns, response_words, says_any_time
 from fieldhand.planning.grammar.language import GrammarLanguage
 from fieldhand.planning.grammar.words import FeatureTable
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
-#: Words of an action that takes pictures.
-_PICTURES = frozenset({"picture", "photo", "image", "thermal picture"})
 #: Number of words of the longest phrase of english.toml that is read as a word.
 _LONGEST = 6
 #: What stands before the first word of a clause.
@@ -79,9 +78,11 @@ class EnglishPhrases:
         """Yield the events that words mention, and with them the words of responses."""
         found = list(self.events.mentions(words))
         for one in found:
-            yield "EVENTNOUN" if one.is_noun else "EVENT", one.start, one.end, one.condition
+            kind = "EVENTNOUN" if one.is_noun else "NOEVENT" if one.clear else "EVENT"
+            yield kind, one.start, one.end, one.condition
         if found or says_any_time(words):
             yield from ((category, start, end, None) for category, start, end in response_words(words))
+        yield from earlier_edges(words, self.lexicon, self.camera)
 
     def entries(self, phrase: Phrase) -> Iterator[NameEntry]:
         """Yield what a phrase can be: in the lexicon, spelt out, and in english.toml."""
@@ -173,6 +174,8 @@ def more_words() -> Mapping[Phrase, tuple[NameEntry, ...]]:
             found[split(plural_of(phrase))].append(NameEntry(kind=kind, plural=True))
     for phrase, value in own["derived"].items():
         found[split(phrase)].append(NameEntry(kind="SUPER", value=tuple(value)))
+    for phrase, value in own["vague"].items():
+        found[split(phrase)].append(NameEntry(kind="VAGUEADJ", value=tuple(value)))
     for phrase, part in own["parts"].items():
         found[split(phrase)].append(NameEntry(kind="PART", value=part))
     for kind, routes in own["routes"].items():
@@ -208,7 +211,7 @@ def phrases_for(robot: RobotProfile, site: Site) -> EnglishPhrases:
 
 def camera_of(robot: RobotProfile) -> Naming | None:
     """Return the action that takes pictures, if the robot has just one."""
-    cameras = [action.name for action in robot.actions if _PICTURES & set(action.words)]
+    cameras = [action.name for action in robot.actions if takes_pictures(action)]
     return Naming(actions=(cameras[0],)) if len(cameras) == 1 else None
 
 

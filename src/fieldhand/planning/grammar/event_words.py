@@ -34,12 +34,14 @@ class EventMention:
         condition: Event, or its comparison with a threshold.
         start, end: Range of its words.
         is_noun: True for a noun ("rain"), False for a clause ("it rains").
+        clear: True if the words say that it does not hold ("nobody is near", "the gate is open").
     """
 
     condition: EventHolds | EventBeyond
     start: int
     end: int
     is_noun: bool
+    clear: bool = False
 
 
 @cache
@@ -83,7 +85,7 @@ class EventPatterns:
                     found = pattern.match(text, at)
                     condition = None if found is None else _condition(event, kind, found)
                     if condition is not None:
-                        yield EventMention(condition, first, last, is_noun)
+                        yield EventMention(condition, first, last, is_noun, kind == "clear")
 
 
 #: The patterns of a robot without events.
@@ -106,6 +108,16 @@ def _clauses_of(event: MonitoredEvent) -> Iterator[tuple[str, re.Pattern[str]]]:
         yield "holds", _pattern(said["state"], event)
         if own := _own_states(event):
             yield "holds", _pattern(said["own_state"], event, own)
+            yield "clear", _pattern(said["clear_own_state"], event, own)
+    if event.can_hold:
+        yield from (("clear", _pattern(said[name], event)) for name in _clear(event))
+
+
+def _clear(event: MonitoredEvent) -> tuple[str, ...]:
+    """Return the forms of the clauses that deny an event."""
+    nouns = ("clear_noun",) if not event.unit and (event.verbs or not event.states) else ()
+    people = ("clear_person",) if {*nouns_of(event)} & {*phrases()["words"]["people"]} else ()
+    return (*nouns, *people, *(("clear_verb",) if event.verbs else ()), *(("clear_state",) if event.states else ()))
 
 
 def _nouns_of(event: MonitoredEvent) -> Iterator[tuple[str, re.Pattern[str]]]:
@@ -135,6 +147,7 @@ def _pattern(forms: Sequence[str], event: MonitoredEvent, states: Sequence[str] 
         "noun": _any(nouns_of(event)),
         "verb": _any([form for verb in event.verbs for form in forms_of(verb)]),
         "state": _any(states or event.states),
+        "opposite": _any([word for state in states or event.states for word in phrases()["opposites"].get(state, ())]),
         "more": _any([*map(_more, states), *(f"more {state}" for state in states)]),
         "units": _any([*units, event.unit] if event.unit else units),
     }
@@ -167,7 +180,7 @@ def _any(words: Sequence[str]) -> str:
 
 
 def _condition(event: MonitoredEvent, kind: str, found: re.Match[str]) -> EventHolds | EventBeyond | None:
-    if kind == "holds":
+    if kind in ("holds", "clear"):
         return EventHolds(event=event.name)
     groups = {name[:-1]: text for name, text in found.groupdict().items() if text is not None}
     unit = next((name for name, said in phrases()["units"].items() if groups["unit"] in said), groups["unit"])

@@ -14,6 +14,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.parameters import in_unit_of, with_parameter
 from fieldhand.planning.grammar.commands.waits import LONGEST_WAIT_S
+from fieldhand.planning.grammar.earlier.work import EarlierWork
 from fieldhand.planning.grammar.meaning import Amount, CaptureCommand, Nominal, ParameterValue, PlaceMeaning, Thing
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
@@ -153,6 +154,36 @@ def reacting_otherwise() -> Impossible:
     return Impossible(
         message("what the robot detects all the time decides about no single step"),
         message("say what it does then: 'if it rains, come home', or wait, skip that tree, or end the mission"),
+    )
+
+
+@construction("hottest read_noun when=PERIOD", "read_noun with_most when=PERIOD")
+def hottest_without_a_number(when: Lex) -> Impossible | None:
+    """Compose "the hottest trees of last week"."""
+    if when.value.unsaid:
+        return None
+    return Impossible(message("it does not say how many"), message("say how many: 'the 10 hottest trees of last week'"))
+
+
+@construction("nominal work=WORKSAID", "DET work=WORKSAID")
+def done_without_a_period(work: Lex) -> Impossible | None:
+    """Compose "the trees that we visited"."""
+    said: EarlierWork = work.value
+    if said.needs_period or said.selectors(None):
+        return None
+    return Impossible(
+        message("it does not say when that was"),
+        message("give a period: 'visited yesterday', 'already visited', 'not visited in the last 3 days'"),
+    )
+
+
+@construction("work=WORKSAID PERIOD", "work=WORKWHERE PERIOD")
+def done_by_something_else(work: Lex) -> Impossible:
+    """Compose "we did yesterday", which describes no trees where it stands."""
+    del work
+    return Impossible(
+        message("what was done before describes trees, and none here"),
+        message("say it of trees: 'the trees of row 3 not visited yesterday', or 'skip the ones done yesterday'"),
     )
 
 

@@ -78,6 +78,7 @@ class Nominal:
         of_side: True if an adjective before it names the side on which it stands ("northern tree").
         pronoun: True for "one", which stands for a noun before it.
         tested: True if a clause behind the noun describes it ("that are older than 8 years").
+        vague: Attribute by which trees are described without a value ("weak vines").
         unmarked: True for a noun that has one form for one and for several ("basil", "Sungold").
     """
 
@@ -89,6 +90,7 @@ class Nominal:
     tested: bool = False
     pronoun: bool = False
     of_side: bool = False
+    vague: str = ""
     unmarked: bool = False
 
     def counts(self, number: int) -> bool:
@@ -137,6 +139,7 @@ class PlaceMeaning:
         there: True if the phrase says that they are in the area spoken of ("every tree there").
         per: Rows of each of which the selector says something by itself ("the oldest tree of each row").
         fault: Why the site cannot have it, for ``nowhere``.
+        vague: Attribute by which they are chosen if neither a number nor a value was given ("the oldest trees").
         tokens: Tokens of the phrase, as a bit mask; they do not tell two meanings apart.
     """
 
@@ -154,6 +157,7 @@ class PlaceMeaning:
     like: Likewise | None = None
     per: s.Selector | None = None
     fault: str = ""
+    vague: str = ""
     tokens: int = field(default=0, compare=False)
 
     def with_tokens(self, used: int) -> PlaceMeaning:
@@ -186,6 +190,7 @@ class Thing:
         plural: True for a noun in the plural.
         parameters: Parameters that the phrase gives.
         more: True for "another" and "two more", which are taken besides those before.
+        verb: Verb of a capture that is not named: ``look`` ("check tree 4") or ``sample``; empty for another one.
     """
 
     action: str
@@ -193,6 +198,7 @@ class Thing:
     plural: bool = False
     parameters: tuple[tuple[str, str | float], ...] = ()
     more: bool = False
+    verb: Literal["", "look", "sample"] = ""
 
 
 #: Beginning of the action of a wait, which is read as a capture and becomes a wait when the plan is complete.
@@ -402,6 +408,21 @@ class RechargeClause:
 
 
 @dataclass(frozen=True, slots=True)
+class SlowPlace:
+    """A place at which the robot drives slowly.
+
+    Attributes:
+        places: The place.
+        metres: Distance from it in metres, 0 for the place itself; None if the phrase says only "near".
+        pace: Speed.
+    """
+
+    places: s.Selector
+    metres: float | None
+    pace: PaceClause | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class WayRule:
     """Where the robot must not drive, and the only gates that it may pass.
 
@@ -411,12 +432,14 @@ class WayRule:
         left_out: Those of the places whose trees are left out as well ("stay out of"), not only driven past ("not
             through").
         used: Tokens of the phrase.
+        slow: Places at which it drives slowly.
     """
 
     avoid: tuple[tuple[s.Selector, float], ...] = ()
     gates: tuple[str, ...] = ()
     left_out: tuple[s.Selector, ...] = ()
     used: int = 0
+    slow: tuple[SlowPlace, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -755,6 +778,7 @@ class WatchResponse:
         at_most_s: Maximum of a wait in seconds; None if it is not said.
         fallback: What follows the maximum; empty if it is not said.
         over: True if the phrase says that the robot goes on when it is over.
+        pace: Speed of a robot that drives slowly.
         stands: True for "stop", after which the robot stays where it is if it does not end.
     """
 
@@ -763,6 +787,7 @@ class WatchResponse:
     fallback: Fallback | None = None
     over: bool = False
     stands: bool = False
+    pace: PaceClause | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -773,11 +798,13 @@ class WatchCommand:
         conditions: Conditions; none for a sentence about the response to those before.
         reaction: Response.
         used: Tokens of the phrase.
+        during: Actions during which they are checked; empty for the whole mission.
     """
 
     conditions: Conditions
     reaction: WatchResponse
     used: int
+    during: tuple[str, ...] = ()
 
 
 Command = (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from fieldhand.errors import PlaceError, TaskError
@@ -15,6 +15,7 @@ from fieldhand.places.wording import say_selector
 from fieldhand.planning.foreseen import foreseeable
 from fieldhand.planning.grammar.dialogue.energy import MeantRecharging
 from fieldhand.planning.grammar.dialogue.watching import with_visits
+from fieldhand.planning.grammar.earlier.unsaid import tells_earlier_missions, with_quantities
 from fieldhand.planning.grammar.meaning import WayRule
 from fieldhand.planning.homeward import faulted_exits, usual_exit, with_assumed_exit
 from fieldhand.planning.planner import Outcome, Planned, Reason, Refused
@@ -28,7 +29,7 @@ from fieldhand.task.frames import Budget, BudgetKind, Constraints, Resource, Tas
 from fieldhand.task.recharging import recharges
 from fieldhand.task.timing import Timing
 from fieldhand.task.watches import Watch
-from fieldhand.task.ways import Avoid, OnlyGate
+from fieldhand.task.ways import Avoid, OnlyGate, SlowNear
 
 NAME = "english"
 KINDS: dict[str, BudgetKind] = {"metres": "distance_m", "seconds": "duration_s", "percent": "energy_percent"}
@@ -92,6 +93,12 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
     limits = tuple(_impossible_limits(meant.limits))
     if limits:
         return Refused(reasons=limits, planner=NAME)
+    if not tells_earlier_missions(meant.plan, robot):
+        return Refused(reasons=(_open_time(meant.plan),), planner=NAME)
+    plan = with_quantities(meant.plan, robot)
+    if plan is None:
+        return Refused(reasons=(_open_quantity(meant.plan),), planner=NAME)
+    meant = replace(meant, plan=plan)
     nominal = usual_exit(site) if meant.nominal is None else meant.nominal
     task = make_task(
         request=request,
@@ -114,6 +121,7 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
     )
     problems = (
         *_unable(task, robot, site),
+        *_ordered_choices(task.composition.plan),
         *_impossible(task.composition.plan, site),
         *_impossible_ways(meant, site),
     )
@@ -124,9 +132,40 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
     return Planned(task=task, planner=NAME)
 
 
+def _open_time(plan: p.Node) -> Reason:
+    """Return the reason for words about what was done that may mean this mission or an earlier one."""
+    return Reason(
+        what=message("it is not clear whether this mission or an earlier one is meant"),
+        said=plan.said,
+        advice=message("say when: 'visited yesterday', 'visited in an earlier mission'"),
+        final=True,
+    )
+
+
+def _open_quantity(plan: p.Node) -> Reason:
+    """Return the reason for words about earlier readings that do not name what was read."""
+    return Reason(
+        what=message("it is not clear which earlier readings are meant"),
+        said=plan.said,
+        advice=message("name the quantity: 'where the CO2 was above 450 ppm last time'"),
+    )
+
+
 def _skips(watch: Watch) -> bool:
     """Return True if a watch may leave out a visit."""
     return watch.response in ("skip", "skip_row") or (watch.response == "wait" and watch.fallback == "skip")
+
+
+def _ordered_choices(plan: p.Node) -> Iterator[Reason]:
+    """Yield a reason for visits in a fixed order of which only as many are made as fit."""
+    for node in p.walk(plan):
+        if node.is_optional and node.visits_each and not node.in_any_order:
+            yield Reason(
+                what=message("an order of places cannot be combined with a choice of how many", context="fault"),
+                said=node.said,
+                advice=message("say among how many: 'as many as you can of the 30 oldest trees'"),
+                final=True,
+            )
 
 
 def _constraints(meant: Meant) -> Constraints:
@@ -151,6 +190,16 @@ def _constraints(meant: Meant) -> Constraints:
             for places, metres in rule.avoid
         ),
         only_gates=tuple(OnlyGate(gate=gate, said=said) for rule, said in meant.ways for gate in rule.gates),
+        slow=tuple(
+            SlowNear(
+                places=one.places,
+                distance_m=one.metres or 0.0,
+                speed_m_s=None if one.pace is None else one.pace.speed,
+                said=said,
+            )
+            for rule, said in meant.ways
+            for one in rule.slow
+        ),
     )
 
 
@@ -206,7 +255,7 @@ def _impossible_limits(limits: Iterable[LimitPhrase]) -> Iterable[Reason]:
 def _impossible_ways(meant: Meant, site: Site) -> Iterable[Reason]:
     """Yield a reason for each place to keep away from that the site lacks, or of which no distance is said."""
     for rule, said in meant.ways:
-        for places, metres in rule.avoid:
+        for places, metres in (*rule.avoid, *((one.places, one.metres) for one in rule.slow)):
             if as_zone(places) is not None:
                 continue  # a zone without trees is one, too
             try:

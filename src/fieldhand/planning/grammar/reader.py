@@ -12,8 +12,13 @@ from fieldhand.planning.english.wishes import says_start
 from fieldhand.planning.grammar.alike import different_on_site
 from fieldhand.planning.grammar.ambiguity import PlanQuestion, chosen_answer, not_an_answer, question_between
 from fieldhand.planning.grammar.answer_places import different_places
-from fieldhand.planning.grammar.assumptions import assumed_hands, assumed_ways, assumed_wholes
-from fieldhand.planning.grammar.blocks import in_each_block, leaves_block_open, rules_in_each_block
+from fieldhand.planning.grammar.assumptions import assumed_hands, assumed_qualities, assumed_ways, assumed_wholes
+from fieldhand.planning.grammar.blocks import (
+    exceptions_leave_out,
+    in_each_block,
+    leaves_block_open,
+    rules_in_each_block,
+)
 from fieldhand.planning.grammar.chart import Chart, Grammar, PhraseEdge, tokens_of
 from fieldhand.planning.grammar.dialogue import (
     DialogueState,
@@ -29,7 +34,7 @@ from fieldhand.planning.grammar.english import ENGLISH
 from fieldhand.planning.grammar.language import GrammarLanguage, Respelling
 from fieldhand.planning.grammar.planned import NAME, LimitPhrase, Meant, planned_as
 from fieldhand.planning.grammar.refusals import lost_reasons, unread_reasons
-from fieldhand.planning.grammar.remarks import Remarks, without_remarks
+from fieldhand.planning.grammar.remarks import Remarks, keeps_asides, without_remarks
 from fieldhand.planning.grammar.words import Phrases, edges_of, fillers_of, topic_edge
 from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Reason, Refused
 from fieldhand.planning.selections import rows_of
@@ -37,6 +42,7 @@ from fieldhand.request_check import mismatches
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task import plan as p
+from fieldhand.task.earlier import uses_records
 from fieldhand.task.plan import Span
 from fieldhand.task.request_coverage import request_pieces
 from fieldhand.task.timing import Timing
@@ -100,6 +106,8 @@ def read(
     robot: RobotProfile,
     language: GrammarLanguage = ENGLISH,
     words: Sequence[Word] | None = None,
+    *,
+    past: bool = True,
 ) -> ReadRequest:
     """Return the ways to read a request as a whole.
 
@@ -110,6 +118,7 @@ def read(
         site, robot: Site and robot of the mission.
         language: Language of the request.
         words: Words of the request that are to be read; None for all.
+        past: False to leave out "today" and the like as remarks where they may say when earlier work was done.
     """
     words = language.words_of(request) if words is None else words
     phrases = language.phrases(robot, site)
@@ -117,20 +126,20 @@ def read(
     def read_besides(remarks: Remarks) -> ReadRequest:
         return _read_words(request, remarks, phrases, site, robot, language)
 
-    plain = without_remarks(words, edges_of(words, phrases))
+    plain = without_remarks(words, edges_of(words, phrases), past=past)
     found = read_besides(plain)
     if found.readings or language.respelt is None or any(isinstance(one, OpenQuestion) for one in found.faults):
         return found
     mended = _mended(words, phrases, language.respelt)
     if mended.notes:
-        respelt = read_besides(without_remarks(mended.words, edges_of(mended.words, phrases)))
+        respelt = read_besides(without_remarks(mended.words, edges_of(mended.words, phrases), past=past))
         if respelt.readings:
             return _with_notes(respelt, mended.notes)
     edges = edges_of(words, phrases, tells=True)
     likely = edges_of(mended.words, phrases)
     frames = language.frames(words) if language.frames is not None else ()
     aims = language.aims(words) if language.aims is not None else ()
-    told = without_remarks(words, edges, tells=True, respelt=likely, frames=frames, aims=aims)
+    told = without_remarks(words, edges, tells=True, respelt=likely, frames=frames, aims=aims, past=past)
     if told == plain:
         return found
     bare = read_besides(told)
@@ -192,6 +201,7 @@ def _read_words(
                         *assumed_ways(state.plan, request, sides, site),
                         *assumed_wholes(state.plan, request),
                         *assumed_hands(state.plan, request),
+                        *assumed_qualities(state.plan, request),
                     ),
                 )
                 for state in states
@@ -202,7 +212,7 @@ def _read_words(
     unread: tuple[Reason, ...] = ()
     if not found:
         chart = _parsed(_with_impossible(language), words, edges, phrases, site, robot)
-        unread = unread_reasons(request, words, edges, chart, faults, site)
+        unread = unread_reasons(request, words, edges, chart, faults, site, robot)
     return ReadRequest(readings=found, faults=faults, unread=unread)
 
 
@@ -275,7 +285,29 @@ def composed(
         words: Words of the request that are to be read; None for all.
         timing: When the mission runs, as the other words say.
     """
-    found = read(request, site, robot, language, words)
+    outcome = _composed(request, site, robot, language, answers, words, timing, past=True)
+    if not isinstance(outcome, Refused):
+        return outcome
+    read_words = language.words_of(request) if words is None else words
+    if not keeps_asides(read_words, edges_of(read_words, language.phrases(robot, site))):
+        return outcome
+    without = _composed(request, site, robot, language, answers, words, timing, past=False)
+    is_present = isinstance(without, Planned) and not uses_records(without.task)
+    return without if is_present else outcome  # "the yellow trees are to be photographed today"
+
+
+def _composed(
+    request: str,
+    site: Site,
+    robot: RobotProfile,
+    language: GrammarLanguage,
+    answers: tuple[Answer, ...],
+    words: Sequence[Word] | None,
+    timing: Timing | None,
+    *,
+    past: bool,
+) -> Outcome:
+    found = read(request, site, robot, language, words, past=past)
     found = replace(found, readings=[replace(reading, timing=timing) for reading in found.readings])
     if not found.readings:
         asked = next((fault.what for fault in found.faults if isinstance(fault, OpenQuestion)), None)
@@ -332,6 +364,8 @@ def _candidates(
         for block, plan in plans.items()
     }
     planned = [block for block, outcome in outcomes.items() if isinstance(outcome, Planned)]
+    if len(planned) > 1:
+        planned = [block for block in planned if exceptions_leave_out(plans[block], site)] or planned
     if len(plans) > 1 and len(planned) == 1:  # "five Syrah vines in row 30", where only one block has Syrah
         (block,) = planned
         outcomes = {
@@ -542,10 +576,17 @@ def _same(one: Meant, other: Meant) -> bool:
         and (one.nominal, one.speed_m_s) == (other.nominal, other.speed_m_s)
         and [(limit.amount, limit.unit, limit.keep) for limit in one.limits]
         == [(limit.amount, limit.unit, limit.keep) for limit in other.limits]
-        and [(rule.avoid, rule.gates) for rule, _ in one.ways] == [(rule.avoid, rule.gates) for rule, _ in other.ways]
+        and _rules(one) == _rules(other)
         and [replace(watch, said=()) for watch in one.watches] == [replace(watch, said=()) for watch in other.watches]
         and _without_said(one.recharging) == _without_said(other.recharging)
     )
+
+
+def _rules(meant: Meant) -> list[object]:
+    return [
+        (rule.avoid, rule.gates, [(x.places, x.metres, x.pace and x.pace.speed) for x in rule.slow])
+        for rule, _ in meant.ways
+    ]
 
 
 def _without_said(recharging: MeantRecharging | None) -> MeantRecharging | None:

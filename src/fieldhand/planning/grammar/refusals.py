@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from fieldhand.language import message, named
-from fieldhand.language.words import some_names
+from fieldhand.language.words import listed, say_action, say_unit, some_names
+from fieldhand.planning.english.lacking import lacked_actions, measured_units
 from fieldhand.planning.english.languages import language_of
-from fieldhand.planning.english.tokens import Word
+from fieldhand.planning.english.tokens import Word, words_of
 from fieldhand.planning.grammar.chart import Chart, PhraseEdge, tokens_of
 from fieldhand.planning.grammar.dialogue import NotComposed
+from fieldhand.planning.grammar.english import more_words
 from fieldhand.planning.grammar.impossible import IMPOSSIBLE
 from fieldhand.planning.grammar.words import LACKING
 from fieldhand.planning.planner import Planned, Reason
@@ -30,6 +32,8 @@ _NOT_YET = "NOTYET"
 _OF_MARKERS = "RATHERTHAN"
 #: Maximum number of words of a reason that are quoted, and of characters of a sentence.
 _MOST_WORDS, _MOST_CHARACTERS = 4, 120
+#: Units in which limits of a mission are said as well.
+_UNITS_OF_LIMITS = frozenset({"percent", "m", "s", "J"})
 _SAY_WHAT = message("say what to take or measure, and at which trees")
 _SHORTER = message("say it in shorter sentences, one thing after the other")
 
@@ -41,6 +45,7 @@ def unread_reasons(
     chart: Chart,
     faults: Sequence[NotComposed],
     site: Site,
+    robot: RobotProfile,
 ) -> tuple[Reason, ...]:
     """Return the reasons for which a request has no reading, the plainest ones only.
 
@@ -50,14 +55,17 @@ def unread_reasons(
         edges: What the words are by themselves.
         chart: Phrases over the words, those that cannot be planned among them.
         faults: What stopped the reading of its clauses, most likely reading first.
-        site: Site of the mission.
+        site, robot: Site and robot of the mission.
     """
-    found = (*_not_yet(words, edges), *_lacking(words, edges, site), *_unknown(words, edges, chart.fillers, site))
+    unknown = _unknown(words, edges, chart.fillers, site, robot)
+    found = (*_not_yet(words, edges), *_lacking(words, edges, site), *unknown)
     if found:
         return found
     missing = _missing_block(words, edges, site)
     if missing is not None:
         return (missing,)
+    if unmeasured := tuple(_unmeasured(words, edges, robot)):
+        return unmeasured
     if faults:
         return (_fault(faults[0], words, request),)
     if impossible := tuple(_impossible(words, chart, request)):
@@ -129,12 +137,12 @@ def _lacking(words: Sequence[Word], edges: Sequence[PhraseEdge], site: Site) -> 
 
 
 def _unknown(
-    words: Sequence[Word], edges: Sequence[PhraseEdge], fillers: frozenset[int], site: Site
+    words: Sequence[Word], edges: Sequence[PhraseEdge], fillers: frozenset[int], site: Site, robot: RobotProfile
 ) -> Iterator[Reason]:
-    """Yield reasons for words that are not known: rows and blocks that the site lacks, and the others together."""
+    """Yield reasons for words that are not known: what the site or the robot lacks, and the others together."""
     known = {k for edge in edges for k in range(edge.start, edge.end)} | fillers
     rows = {edge.end for edge in edges if edge.category == "ROW"}
-    strange: list[Word] = []
+    strange: list[int] = []
     for k, word in enumerate(words):
         if k in known or word.kind == "stop":
             continue
@@ -142,9 +150,34 @@ def _unknown(
         if k in rows or block:
             yield _no_such(word, site, block=block)
         else:
-            strange.append(word)
-    if strange:
-        yield not_understood(strange)
+            strange.append(k)
+    lacked = list(lacked_actions(words, frozenset(strange), robot))
+    for name in dict.fromkeys(one.name for one in lacked):
+        alike = [one for one in lacked if one.name == name]
+        said = tuple((words[one.first].start, words[one.last - 1].end) for one in alike)
+        yield Reason(what=alike[0].say(robot), said=said, advice=can_instead(robot), final=True)
+    named = {k for one in lacked for k in range(one.first, one.last)}
+    if rest := [words[k] for k in strange if k not in named]:
+        yield not_understood(rest)
+
+
+def _unmeasured(words: Sequence[Word], edges: Sequence[PhraseEdge], robot: RobotProfile) -> Iterator[Reason]:
+    """Yield a reason for each unit in which the robot measures nothing ("hotter than 36 degrees")."""
+    own = {quantity.unit for quantity in robot.quantities} | {event.unit for event in robot.events}
+    for edge in edges:
+        unit = edge.meaning.value[0] if edge.category == "UNIT" else ""
+        if unit not in measured_units() or unit in own | _UNITS_OF_LIMITS:
+            continue
+        start, end = words[edge.start].start, words[edge.end - 1].end
+        what = message("{robot} measures nothing in {unit}", robot=robot.name, unit=say_unit(unit))
+        yield Reason(what=what, said=((start, end),), advice=can_instead(robot), final=True)
+        return
+
+
+def can_instead(robot: RobotProfile) -> str:
+    """Return what a robot can do."""
+    offers = listed([say_action(action.name) for action in robot.actions], "or")
+    return message("{robot} can {offers}", robot=robot.name, offers=offers)
 
 
 def not_understood(words: Sequence[Word], advice: str = PLAINLY) -> Reason:
@@ -261,4 +294,19 @@ def lost_reasons(
         for start, end in lost
     ]
     wrong = [Reason(what=one.what, advice=PLAINLY) for one in mismatches(plan.task, site, robot)]
-    return (*parts, *wrong)
+    vague = () if parts or not wrong else tuple(_vague(request))
+    return vague or (*parts, *wrong)
+
+
+def _vague(request: str) -> Iterator[Reason]:
+    """Yield the reason for an adjective without a value ("weak vines") of which only one value fits the place."""
+    words = words_of(request)
+    for word in words:
+        if any(entry.kind == "VAGUEADJ" for entry in more_words().get((word.norm,), ())):
+            yield Reason(
+                what=message("'{said}': {what}", said=word.text, what=message("it does not say from which value on")),
+                said=((word.start, word.end),),
+                advice=message("say 'older than 8 years', or 'the ten oldest trees'"),
+                final=True,
+            )
+            return

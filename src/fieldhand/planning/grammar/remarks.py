@@ -9,6 +9,8 @@ from itertools import pairwise
 
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.grammar.chart import PhraseEdge
+from fieldhand.planning.grammar.earlier.edges import EARLIER
+from fieldhand.planning.grammar.earlier.past_words import past_ranges
 from fieldhand.planning.grammar.list_marks import list_marks
 from fieldhand.planning.grammar.people import sender, who_wants
 from fieldhand.planning.grammar.purposes import purpose
@@ -75,6 +77,7 @@ def without_remarks(
     respelt: Iterable[PhraseEdge] = (),
     frames: Iterable[tuple[int, int]] = (),
     aims: Iterable[tuple[int, int]] = (),
+    past: bool = True,
 ) -> Remarks:
     """Return the words without remarks: what is told beside the command, and the reasons that are given.
 
@@ -85,6 +88,7 @@ def without_remarks(
         respelt: What the words can be with misspellings mended; what may ask for something then tells nothing.
         frames: Ranges of polite frames ("would you be able to"), which are left out, too.
         aims: Ranges of the phrases with which purposes begin ("I want to know how").
+        past: True to keep "today" and the like where they may say when earlier work was done.
     """
     marks = list_marks(words)
     words = [replace(word, kind="stop") if k in marks.ends else word for k, word in enumerate(words)]
@@ -94,19 +98,22 @@ def without_remarks(
     purposes: dict[int, int] = {}
     asides: set[int] = set()
     hedges: set[int] = set()
+    edges = list(edges)
+    earlier = _of_earlier_missions(words, edges) if past else frozenset[int]()
     for edge in edges:
         if edge.category == "NOUN":
             for k in range(edge.start, edge.end):
                 captures[k].add(edge.meaning.value)
-        for k in range(edge.start, edge.end):
-            kinds[k].add(edge.category)
+        for k in range(edge.start, edge.end) if edge.category not in EARLIER else ():
+            kinds[k].add(edge.category)  # "We had a leak last week" tells of something else
         if edge.category == "REASON":
             reasons.add(edge.start)
         if edge.category in ("PURPOSE", "REASON"):
             purposes[edge.start] = max(edge.end, purposes.get(edge.start, 0))
         if edge.category == "ABOUT" and "hedges" in edge.meaning.features:
             hedges.add(edge.end - 1)
-        if edge.category == "ASIDE" and ("anywhere" in edge.meaning.features or _stands_apart(words, edge)):
+        of_earlier = not earlier.isdisjoint(range(edge.start, edge.end))
+        if edge.category == "ASIDE" and not of_earlier and (_is_anywhere(edge) or _stands_apart(words, edge)):
             asides.update(range(edge.start, edge.end))
     likely: dict[int, set[str]] = defaultdict(set)
     for edge in respelt:
@@ -191,6 +198,25 @@ def _sets_off(words: Sequence[Word], comma: int, left_out: set[int]) -> bool:
     while begin - 1 in left_out:
         begin -= 1
     return begin < comma and (begin == 0 or words[begin - 1].kind in ("comma", "stop"))
+
+
+def _is_anywhere(edge: PhraseEdge) -> bool:
+    return "anywhere" in edge.meaning.features
+
+
+def _of_earlier_missions(words: Sequence[Word], edges: Sequence[PhraseEdge]) -> frozenset[int]:
+    """Return the numbers of the words that are the time of earlier work ("already done today")."""
+    asides = (edge for edge in edges if edge.category == "ASIDE" and _is_anywhere(edge))
+    times = [("PERIOD", edge.start, edge.end) for edge in asides]
+    return past_ranges(words, [*((edge.category, edge.start, edge.end) for edge in edges), *times])
+
+
+def keeps_asides(words: Sequence[Word], edges: Iterable[PhraseEdge]) -> bool:
+    """Return True if some asides of a request may say when earlier work was done ("photographed today")."""
+    known = list(edges)
+    earlier = _of_earlier_missions(words, known)
+    asides = (edge for edge in known if edge.category == "ASIDE" and _is_anywhere(edge))
+    return any(not earlier.isdisjoint(range(edge.start, edge.end)) for edge in asides)
 
 
 def _stands_apart(words: Sequence[Word], edge: PhraseEdge) -> bool:

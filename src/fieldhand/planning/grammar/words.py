@@ -34,6 +34,8 @@ _MARKERS = {"start": "START", "end": "FINISH", "charger": "CHARGER"}
 _SIGNS = {"comma": "COMMA", "dash": "DASH", "sign": "AND", "hash": "HASH", "stop": "FULLSTOP"}
 #: Category of words that always may be skipped.
 _SILENT = "FILLER"
+#: Category of adjectives that do not say from which value on.
+_VAGUE = "VAGUEADJ"
 #: Category of what stands before a verb behind a wish ("I want you to").
 _INFINITIVE = "INORDERTO"
 #: Category of words that hint at an attribute which the site does not record ("taller than").
@@ -208,7 +210,10 @@ def fillers_of(words: Sequence[Word], phrases: Phrases) -> frozenset[int]:
     for start in range(len(words)):
         for end in range(start + 1, min(start + 1 + _LONGEST_FILLER, len(words) + 1)):
             phrase = tuple(word.norm for word in words[start:end])
-            if any(entry.kind == _SILENT for entry in phrases.entries(phrase)):
+            kinds = {entry.kind for entry in phrases.entries(phrase)}
+            if _VAGUE in kinds and _is_kind(words[end : end + 1], "TREE", phrases):
+                continue  # "good vines"
+            if _SILENT in kinds:
                 found.update(range(start, end))
                 if "wishes" in phrases.features(phrase) and _is_kind(words[end : end + 1], _INFINITIVE, phrases):
                     found.add(end)  # "I want you to ..."

@@ -69,7 +69,7 @@ _QUESTION = """\
   <choice>north-west</choice><choice>north-east</choice><choice>south-east</choice><choice>south-west</choice>
 </question>"""
 
-_REFUSAL = "<refusal>It cannot prune, and a plan holds no 'tomorrow'.</refusal>"
+_REFUSAL = "<refusal>It cannot prune: it has no action for that.</refusal>"
 
 #: Pairs of request and expected answer.
 EXAMPLES: tuple[tuple[str, str], ...] = (

@@ -14,6 +14,7 @@ from functools import cache
 from typing import get_args
 
 from fieldhand.errors import ModelError
+from fieldhand.places.earlier.period import Period
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import SELECTORS
 from fieldhand.task import plan
@@ -23,7 +24,7 @@ from fieldhand.task.frames import Budget, Constraints, FaultedExit
 from fieldhand.task.plan import Node
 from fieldhand.task.timing import DayTime, Timing
 from fieldhand.task.watches import Watch, WatchCondition
-from fieldhand.task.ways import Avoid, OnlyGate
+from fieldhand.task.ways import Avoid, OnlyGate, SlowNear
 
 #: Letters that stand for any element of a family in the forms.
 LETTERS = {"node": "N", "condition": "C", "selector": "S", "watched": "W"}
@@ -66,8 +67,8 @@ def describe_language() -> str:
     sections = (
         ("Nodes (N), what is done", get_args(Node)),
         ("Conditions (C), what an if or an until tests", get_args(Condition)),
-        ("Selectors (S), how places are named", SELECTORS),
-        ("Constraints", (Constraints, Budget, Avoid, OnlyGate, FaultedExit)),
+        ("Selectors (S), how places are named", (*SELECTORS, Period)),
+        ("Constraints", (Constraints, Budget, Avoid, OnlyGate, SlowNear, FaultedExit)),
         ("Times, when the whole mission runs", (*get_args(Timing), DayTime)),
     )
     rendered = [
@@ -126,6 +127,9 @@ def _child(child: Child) -> str:
     part = letter or between.join(f"<{element_name(option)}/>" for option in child.options)
     many = f"{part}..." if child.kind == "many" else part
     whole = many if child.direct else f"<{child.name}>{many}</{child.name}>"
+    if child.kind == "inline":  # the element itself has the attributes of that class
+        (option,) = child.options
+        whole = part if part == f"<{child.name}/>" else f"<{child.name} {element_name(option).upper()}/>"
     if child.name == "of" and not child.direct:
         whole = "OF"
     return whole if child.default is MISSING else f"[{whole}]"

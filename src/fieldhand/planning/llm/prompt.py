@@ -34,8 +34,8 @@ from fieldhand.task.plan import Node
 MOST_DATA = 4_000
 LONGEST_LINE = 400
 #: Maximum number of tokens of the first two messages without the request; the site gets the remainder, within bounds.
-MOST_TOKENS = 9_500
-SITE_TOKENS = (250, 800)
+MOST_TOKENS = 10_400
+SITE_TOKENS = (450, 800)
 #: Maximum number of synonyms shown for an action or quantity.
 MOST_SYNONYMS = 5
 
@@ -148,7 +148,9 @@ def watch_rules(robot: RobotProfile) -> str:
         f'This robot detects events all the time ({names}). React to them, and to readings "at any time", only with'
         " <watches><watch .../>...</watches> at the end of <task-composition>, never with an if; quote their words."
         ' W is one of the elements after <watch>; EVENT is an element named after an event. "Stop" and "pause" are'
-        ' response="wait", and waiting is possible only so. Refuse an event that is not listed.\n'
+        ' response="wait", and waiting is possible only so; "drive slowly while"'
+        ' is response="slow". "Only while it is dry", "unless it rains" are the event of which the request speaks the'
+        ' opposite; "while spraying, stop if" has during="spray". Refuse an event that is not listed.\n'
         f"{describe_watches()}"
     )
 

@@ -12,6 +12,7 @@ from itertools import islice
 from fieldhand.language.words import article
 from fieldhand.planning.english.naming import name_words
 from fieldhand.planning.english.wishes import Offers
+from fieldhand.planning.grammar.places.vague import qualities
 from fieldhand.planning.planner import Outcome, Planned
 from fieldhand.planning.refusals.understood import ParsedRequest, UnderstoodPart
 from fieldhand.robot.model import Action
@@ -120,8 +121,9 @@ def _named(site: Site, noun: str) -> Iterator[str]:
 
 
 def _measured(site: Site, noun: str) -> Iterator[str]:
-    """Yield trees by the rank of an attribute."""
-    for name, values in site.attributes.items():
+    """Yield trees by the rank of an attribute, first by one that says how good they are."""
+    for name in dict.fromkeys((*qualities(site), *site.attributes)):
+        values = site.attributes[name]
         if name not in _NO_PROPERTIES and len(values) > 1 and all(isinstance(value, float) for value in values):
             yield f"the 10 {noun}s with the lowest {' '.join(name_words(name))}"
 

@@ -7,6 +7,8 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 
 from fieldhand.language import message
+from fieldhand.planning.english.inflection import base_form
+from fieldhand.planning.english.lacking import lacked_actions, say_lacking
 from fieldhand.planning.english.lexicon import lexicon_for
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.english.wishes import Wish, wishes
@@ -158,23 +160,36 @@ def wish_reasons(
         words: Its words.
         site, robot: Site and robot of the mission.
     """
-    found: dict[str, list[Wish]] = {}
+    found: dict[str, tuple[str, list[Wish]]] = {}
     for wish in wished:
-        found.setdefault(wish.kind.what, []).append(wish)
+        start, end = wish.span(words)
+        what = _say_wish(wish, request[start:end], words, robot)
+        kind = what if wish.kind.lacks_action else wish.kind.what
+        found.setdefault(kind, (what, []))[1].append(wish)
     reasons: list[Reason] = []
-    for alike in found.values():
+    for what, alike in found.values():
         spans = tuple(wish.span(words) for wish in alike)
-        start, end = spans[0]
         first = alike[0]
         reasons.append(
             Reason(
-                what=first.say(request[start:end], robot.name),
+                what=what,
                 said=spans,
                 advice=first.advise(robot.name, say_offers(first.kind.offers, site, robot)),
                 final=True,
             )
         )
     return reasons
+
+
+def _say_wish(wish: Wish, said: str, words: Sequence[Word], robot: RobotProfile) -> str:
+    """Return what the words of a wish ask for, by the action that the robot lacks if they name one."""
+    if not wish.kind.lacks_action:
+        return wish.say(said, robot.name)
+    lacked = next(lacked_actions(words[: wish.last], frozenset(range(wish.first, wish.last)), robot), None)
+    if lacked is not None:
+        return lacked.say(robot)
+    verb = base_form(words[wish.first].norm) if wish.kind.work and wish.last == wish.first + 1 else ""
+    return say_lacking(verb, verb, robot) if verb else wish.say(said, robot.name)
 
 
 def _owned(wish: Wish, words: Sequence[Word], commands: Collection[int]) -> set[int]:

@@ -66,12 +66,19 @@ class _Summary:
         return [
             self._extent(),
             *self._blocks(),
-            f"Markers: {'; '.join(marker_words(m) for m in self._figures.markers) or 'none'}.",
+            f"Markers: {'; '.join(self._marker(m) for m in self._figures.markers) or 'none'}.",
             f"Gates: {self._names([g.place.id for g in self._site.gates], 'gates') or 'none'}.",
             *self._zones(),
             *self._attributes(),
             *(f"Note: {shortened(note, 160)}." for note in notes),
         ]
+
+    def _marker(self, marker: tuple[str, float, float]) -> str:
+        """Return a marker with the name that the site's file gives it."""
+        kind, x, y = marker
+        name = dict(self._site.marker_names).get(kind, kind)
+        called = "" if name == kind else f" (called {shortened(name, self._longest)})"
+        return marker_words((f"{kind}{called}", x, y))
 
     def _extent(self) -> str:
         s = self._figures
@@ -154,7 +161,24 @@ class _Summary:
         numbers = [v for v in values if isinstance(v, float)]
         if len(numbers) == len(values) > min(_FEW_NUMBERS, max(self._most, 1)):
             return f"numbers from {figure_words(min(numbers))} to {figure_words(max(numbers))}"
-        return self._names(self._by_frequency(name, values), "values", number=False)
+        shown = self._names(self._by_frequency(name, values), "values", number=False)
+        return shown + self._in_one_block(name, values)
+
+    def _in_one_block(self, name: str, values: Sequence[Value]) -> str:
+        """Return which values all stand in one of several blocks ("; Syrah only in block South"); empty if none do."""
+        blocks = self._site.planting.blocks
+        if name == "block" or not 1 < len(blocks) <= min(self._most, 8) or len(values) > min(self._most, 8):
+            return ""
+        found: dict[str, set[str]] = {}
+        for block in blocks:
+            for tree in (self._site.trees[k] for row in block.rows for k in row.trees):
+                if name in tree.properties:
+                    found.setdefault(value_text(tree.properties[name]), set()).add(block.name)
+        alone = [(value, *held) for value, held in sorted(found.items()) if len(held) == 1]
+        if not alone or len(found) < 2:
+            return ""
+        longest = self._longest
+        return "".join(f"; {shortened(v, longest)} only in block {shortened(b, longest)}" for v, b in alone)
 
     def _is_id(self, name: str) -> bool:
         return all(str(value_text(t.properties.get(name, ""))) == t.place.id for t in self._site.trees)

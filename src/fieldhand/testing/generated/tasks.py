@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, field, fields, replace
+from datetime import UTC, datetime, timedelta, timezone
 from functools import cached_property, reduce
 from operator import or_
 from types import NoneType, UnionType
@@ -18,6 +19,7 @@ from hypothesis import strategies as st
 from fieldhand.hidden_characters import find_hidden
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import SELECTORS
+from fieldhand.site.earlier_missions import EarlierMissions
 from fieldhand.task.build import make_task
 from fieldhand.task.capabilities import (
     ActionCapability,
@@ -32,8 +34,8 @@ from fieldhand.task.conditions import Condition, Level
 from fieldhand.task.frames import Budget, Constraints, FaultedExit, Resource, Task
 from fieldhand.task.plan import Act, Node, Span, WorkAlong
 from fieldhand.task.timing import Timing
-from fieldhand.task.watches import EventBeyond, EventHolds, Watch
-from fieldhand.task.ways import Avoid, OnlyGate
+from fieldhand.task.watches import EventAbsent, EventBeyond, EventHolds, Watch
+from fieldhand.task.ways import Avoid, OnlyGate, SlowNear
 from fieldhand.terms import Value
 
 #: A robot with every kind of parameter, an action that measures two quantities, an implement, and a quantity without
@@ -69,6 +71,9 @@ requests = st.text(st.one_of(st.sampled_from("\t\n"), _seen), max_size=30)
 names = st.sampled_from(("a", "b", "first tree", "r1"))
 numbers = st.floats(allow_nan=False, allow_infinity=False)
 values = st.one_of(texts.filter(bool), numbers, st.booleans(), st.sampled_from(("10", "true", "1e3", " 7", ".5", "-")))
+_times = st.datetimes(
+    datetime(2020, 1, 1), datetime(2040, 1, 1), timezones=st.sampled_from((UTC, timezone(timedelta(hours=-3.5))))
+).map(lambda time: time.isoformat(timespec="seconds"))
 
 _BY_FIELD: dict[str, st.SearchStrategy[Any]] = {
     "id": names,
@@ -95,6 +100,10 @@ _BY_FIELD: dict[str, st.SearchStrategy[Any]] = {
     "percent": st.floats(0, 100, exclude_min=True, exclude_max=True),
     "until_percent": st.floats(0, 100, exclude_min=True),
     "duration_s": st.floats(1, 604_800),
+    "last_missions": st.integers(1, 50),
+    "last_hours": st.integers(1, 1000),
+    "last_days": st.integers(1, 1000),
+    "last_months": st.integers(1, 100),
 }
 _spans = st.lists(st.tuples(st.integers(0, 999), st.integers(0, 999)), max_size=2).map(tuple)
 
@@ -125,7 +134,7 @@ class Parts:
     def one_of(self, options: tuple[type, ...], depth: int) -> st.SearchStrategy[Any]:
         """Return a strategy for any of some classes; at depth 0 only for those without nested parts."""
         usable = [o for o in options if depth > 0 or not _needs_parts(o)]
-        usable = [o for o in usable if o not in (EventHolds, EventBeyond) or self._events(o)]
+        usable = [o for o in usable if o not in (EventHolds, EventAbsent, EventBeyond) or self._events(o)]
         return st.one_of(*(self._deferred(o, depth) for o in usable))
 
     def _deferred(self, cls: type, depth: int) -> st.SearchStrategy[Any]:
@@ -153,6 +162,8 @@ class Parts:
         if get_origin(hint) in (Union, UnionType) and NoneType in get_args(hint):
             rest = reduce(or_, (a for a in get_args(hint) if a is not NoneType))
             return st.one_of(st.none(), self.of_hint(name, rest, depth))
+        if name in ("at", "begun", "as_of") and hint is str:
+            return _times
         if name == "reward" and hint is float:
             return st.floats(0, 1e6)
         if name in _BY_FIELD and hint is not bool:
@@ -186,7 +197,7 @@ class Parts:
             works = any(action.is_implement for action in self.capabilities.actions.values())
             chosen = [st.just(("", ())), *([self.actions(implements=True)] if works else [])]
             return st.builds(_with_action, made, st.one_of(chosen))
-        if cls in (EventHolds, EventBeyond):
+        if cls in (EventHolds, EventAbsent, EventBeyond):
             known = self._events(cls)
             return st.builds(_with_event, made, st.sampled_from(known), st.just(self.capabilities.events))
         if "quantity" in {one.name for one in fields(cls)}:
@@ -199,7 +210,7 @@ class Parts:
     def _events(self, cls: type) -> list[str]:
         """Return the events of the robot that a condition of a class can test."""
         events = self.capabilities.events
-        return sorted(n for n, e in events.items() if (e.holds if cls is EventHolds else e.unit))
+        return sorted(n for n, e in events.items() if (e.unit if cls is EventBeyond else e.holds))
 
     def actions(
         self, *, implements: bool = False
@@ -216,13 +227,16 @@ class Parts:
         return st.sampled_from(sorted(able)).flatmap(parameters) if able else st.nothing()
 
     def tasks(self) -> st.SearchStrategy[Task]:
-        """Return a strategy for complete Tasks from ``make_task``: with ids, goals and state variables."""
+        """Return a strategy for complete Tasks from ``make_task``: with ids, goals and state variables.
+
+        Some contain earlier missions, whether they depend on them or not.
+        """
         quantities = self.capabilities.quantities
         measures = {
             name: tuple((q, quantities[q].unit) for q in action.measures)
             for name, action in self.capabilities.actions.items()
         }
-        return st.builds(
+        made = st.builds(
             make_task,
             request=requests,
             plan=self.plans,
@@ -237,6 +251,7 @@ class Parts:
                 speed_m_s=st.none() | _BY_FIELD["speed_m_s"],
                 avoid=st.lists(self.instance(Avoid), max_size=2).map(tuple),
                 only_gates=st.lists(self.instance(OnlyGate), max_size=2).map(tuple),
+                slow=st.lists(self.instance(SlowNear), max_size=2).map(tuple),
                 return_percent=st.none() | _BY_FIELD["percent"],
                 recharge=st.booleans(),
                 recharge_below_percent=st.none() | _BY_FIELD["percent"],
@@ -253,6 +268,8 @@ class Parts:
             no_part=_spans,
             watches=st.lists(self.instance(Watch), max_size=2).map(tuple),
         )
+        earlier = st.none() | st.none() | self.instance(EarlierMissions, 3)
+        return st.builds(lambda task, earlier: replace(task, earlier=earlier), made, earlier)
 
 
 def _with_action(node: Act | WorkAlong, chosen: tuple[str, tuple[tuple[str, str | float], ...]]) -> Act | WorkAlong:

@@ -11,6 +11,7 @@ from fieldhand.planning.grammar.commands import (
     clauses,
     conditions,
     driving,
+    earlier,
     energy,
     events,
     exclusions,
@@ -22,6 +23,7 @@ from fieldhand.planning.grammar.commands import (
     requests,
     sampling,
     sides,
+    slow,
     spacing,
     things,
     waits,
@@ -34,7 +36,7 @@ from fieldhand.planning.grammar.commands import (
 GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
-    exclusions, ways, sampling, waits, pace, sides, aggregates, working,
+    exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, earlier,
     work_wanted, laps, headings, asked,
 )  # fmt: skip
 for _theme in _THEMES:

@@ -11,6 +11,7 @@ from fieldhand.planning.grammar.commands.clauses import Adjunct, Clause, once
 from fieldhand.planning.grammar.meaning import LAST_THING, UNSAID_THING, CaptureCommand, PlaceMeaning, Thing
 from fieldhand.planning.grammar.places.groups import of_each_kind
 from fieldhand.planning.grammar.places.sampling import bare_points
+from fieldhand.planning.grammar.places.vague import as_many_of_best
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import are_rows, as_quota, as_some, as_zone, chooses_from_trees, is_one_row, over
 from fieldhand.site.model import Site
@@ -42,7 +43,12 @@ def _so_often(command: CaptureCommand, times: int) -> CaptureCommand | None:
 
 
 def _again(command: CaptureCommand, _: None) -> CaptureCommand | None:
-    known = command.place is None or command.place.shape in ("here", "one", "those")
+    place = command.place
+    known = (
+        place is None
+        or place.shape in ("here", "one", "those")
+        or any(one.uses_records for one in place.selector.walk())
+    )
     return command if known and command.relation in ("at", "of", "along") else None
 
 
@@ -172,9 +178,11 @@ def _at_random(command: CaptureCommand, drawing: _Drawing) -> CaptureCommand | N
 
 def _as_many(command: CaptureCommand, _: None) -> CaptureCommand | None:
     place = command.place
-    if place is None or place.shape != "several" or place.count is not None or place.per is not None:
+    if place is None or place.shape != "several" or place.per is not None:
         return None
-    return replace(command, place=replace(place, optional=True))
+    if place.count is not None and not place.vague:
+        return None
+    return replace(command, place=as_many_of_best(replace(place, optional=True)))
 
 
 @construction(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Literal
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.naming import Naming
@@ -236,12 +237,19 @@ def act_on_those(verb: Lex, used: int, word: Lex | None = None, several: Lex | N
     return _act_on(verb, PlaceMeaning(s.Here(), "those" if of_several else "here"), used)
 
 
-@construction("capture: MEASURE place=place", "capture: MEASURE AT place=place", cost=4.0)
-def check_place(place: PlaceMeaning, used: int) -> CaptureCommand | None:
+@construction("capture: verb=MEASURE place=place", "capture: verb=MEASURE AT place=place", cost=4.0)
+def check_place(verb: Lex, place: PlaceMeaning, used: int) -> CaptureCommand | None:
     """Compose "check tree 4", which does not say what is measured there."""
     if place.shape not in ("one", "several", "area"):
         return None
-    return CaptureCommand((Thing(UNSAID_THING, plural=place.shape == "area"),), place, used)
+    thing = Thing(UNSAID_THING, plural=place.shape == "area", verb=_kind_of(verb))
+    return CaptureCommand((thing,), place, used)
+
+
+def _kind_of(verb: Lex | None) -> Literal["", "look", "sample"]:
+    """Return what a verb says of a capture that is not named."""
+    features = frozenset[str]() if verb is None else verb.features
+    return "look" if "looks" in features else "sample" if "samples" in features else ""
 
 
 @construction("capture: verb=TAKE place=place", cost=1.2)
@@ -256,16 +264,18 @@ def do_the_rest(verb: Lex, place: PlaceMeaning, used: int) -> CaptureCommand | N
     "capture: verb things=things OF site",
     "capture: verb things=things OVER site",
     "capture: verb=ACTV site",
-    "capture: MEASURE site",
+    "capture: unsaid=MEASURE site",
     cost=1.5,
 )
-def of_site(used: int, things: tuple[Thing, ...] = (), verb: Lex | None = None) -> CaptureCommand:
+def of_site(
+    used: int, things: tuple[Thing, ...] = (), verb: Lex | None = None, unsaid: Lex | None = None
+) -> CaptureCommand:
     """Compose "take a picture of the orchard"."""
     if verb is not None:
         naming: Naming = verb.value
         things = (Thing(naming.actions[0]),)
-    unsaid = (Thing(UNSAID_THING, plural=True),)
-    return CaptureCommand(things or unsaid, PlaceMeaning(s.Trees(), "area"), used, relation="of")
+    any_thing = (Thing(UNSAID_THING, plural=True, verb=_kind_of(unsaid)),)
+    return CaptureCommand(things or any_thing, PlaceMeaning(s.Trees(), "area"), used, relation="of")
 
 
 @construction("capture: VISIT place=place AND verb things=things", cost=0.6)

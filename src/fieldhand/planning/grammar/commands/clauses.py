@@ -15,6 +15,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import LAST_THING, CaptureCommand, PlaceMeaning, Thing
+from fieldhand.planning.grammar.places.vague import as_many_of_best
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_every_nth, as_some, is_across
 
@@ -389,9 +390,10 @@ def _as_many(clause: Clause, used: int) -> CaptureCommand | None:
     if place is None or not all(one.plural and one.count is None for one in clause.things):
         return None
     named = all(one.named_tree for one in place.selector.members)
-    if place.shape not in ("several", "area") or (place.count is not None and not named):
+    if place.shape not in ("several", "area") or (place.count is not None and not named and not place.vague):
         return None
-    return CaptureCommand(clause.things, replace(place, shape="several", optional=True, count=None), used)
+    most = as_many_of_best(replace(place, shape="several", optional=True, count=None))
+    return CaptureCommand(clause.things, most, used)
 
 
 def _act(clause: Clause, used: int) -> CaptureCommand | None:

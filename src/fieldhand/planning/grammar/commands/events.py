@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Literal
 
@@ -9,9 +10,14 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.conditions import reading_is
 from fieldhand.planning.grammar.meaning import (
     Amount,
+    CaptureCommand,
     Conditions,
+    Connective,
     Home,
+    LinkedCommand,
+    PaceClause,
     PassOn,
+    Said,
     Subject,
     Test,
     WatchCommand,
@@ -20,7 +26,8 @@ from fieldhand.planning.grammar.meaning import (
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
-from fieldhand.task.watches import ReadingBeyond
+from fieldhand.task.watches import EventAbsent, EventBeyond, EventHolds, ReadingBeyond, WatchCondition
+from fieldhand.terms import Test as Comparison
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -36,11 +43,91 @@ def event(one: Lex) -> Conditions:
     return (one.value,)
 
 
+@construction("happens: one=NOEVENT", cost=0.1)
+def no_event(one: Lex) -> Conditions:
+    """Compose "nobody is in the row"."""
+    return (opposite_of(one.value),)
+
+
 @construction("happens: first=happens OR [if_] second=happens", "such: first=such OR second=such", cost=0.1)
 @construction("happens: first=happens COMMA second=happens", cost=0.4)
 def either(first: Conditions, second: Conditions) -> Conditions | None:
     """Compose "it rains or the wind is over 5 m/s"."""
     return (*first, *second) if not {*first} & {*second} else None
+
+
+@construction("fine: one=NOEVENT", "fine: other=EVENT", cost=0.0)
+def fine(one: Lex | None = None, other: Lex | None = None) -> Conditions | None:
+    """Compose "nobody is in the row" as what has to hold: what is watched is the opposite."""
+    if one is not None:
+        return (one.value,)
+    return None if other is None else (opposite_of(other.value),)
+
+
+@construction("fine: first=fine AND [if_] second=fine", "fine: first=fine AND DURING second=fine", cost=0.1)
+def both_fine(first: Conditions, second: Conditions) -> Conditions | None:
+    """Compose "the gate is open and nobody is in the row"."""
+    return either(first, second)
+
+
+def opposite_of(condition: EventHolds | EventBeyond) -> WatchCondition:
+    """Return the condition that holds when another does not."""
+    if isinstance(condition, EventHolds):
+        return EventAbsent(event=condition.event)
+    return replace(condition, test=_OPPOSITE[condition.test])
+
+
+_OPPOSITE: Mapping[Comparison, Comparison] = {"lt": "ge", "le": "gt", "gt": "le", "ge": "lt"}
+
+
+@construction(
+    "proviso: [BUT] [AND] [WORKON] ONLYDURING on=fine",
+    "proviso: ONLYWORK DURING on=fine",
+    cost=0.1,
+)
+def only_while(on: Conditions, used: int) -> WatchCommand:
+    """Compose "only while the gate is open": meanwhile the robot waits."""
+    return WatchCommand(on, WatchResponse("wait"), used)
+
+
+@construction("proviso: DURING one=NOEVENT", cost=0.4)
+def as_long_as(one: Lex, used: int) -> WatchCommand:
+    """Compose "as long as it does not rain"."""
+    return WatchCommand((one.value,), WatchResponse("wait"), used)
+
+
+@construction(
+    "proviso: [BUT] [AND] [WORKON] ONLYIF on=fine",
+    "proviso: ONLYWORK HAPPENS on=fine",
+    cost=0.2,
+    given=("site",),
+)
+def only_if(on: Conditions, used: int, site: Site) -> list[WatchCommand]:
+    """Compose "only if nobody is in the row", which leaves open where the robot is otherwise."""
+    return [WatchCommand(on, reaction, used) for reaction in no_work(site)]
+
+
+@construction(
+    "proviso: [WORKON] UNLESSEVER on=happens", "proviso: [WORKON] UNLESSSUCH on=such", cost=0.2, given=("site",)
+)
+def unless(on: Conditions, used: int, site: Site) -> list[WatchCommand]:
+    """Compose "unless it rains", which leaves open where the robot is then."""
+    return [WatchCommand(on, reaction, used) for reaction in no_work(site)]
+
+
+@construction("said: before=said [joint=joint] rule=proviso", cost=0.2)
+def proviso_behind(before: Said, rule: WatchCommand, joint: Connective | None = None) -> Said:
+    """Compose "photograph row 3 only while the gate is open"."""
+    return Said((*before.clauses, LinkedCommand(joint, rule)))
+
+
+@construction("said: rule=proviso joint=joint rest=said", cost=0.2)
+def proviso_before(rule: WatchCommand, joint: Connective, rest: Said) -> Said | None:
+    """Compose "only while the gate is open, photograph row 3"."""
+    first, *others = rest.clauses
+    if joint.first or first.before is not None:
+        return None
+    return Said((LinkedCommand(None, rule), replace(first, before=joint), *others))
 
 
 @construction("any_time: ANYTIME", cost=0.0)
@@ -111,6 +198,12 @@ def stands_still() -> WatchResponse:
     return WatchResponse("wait", stands=True)
 
 
+@construction("reacts: how=pace", cost=0.0)
+def drives_slowly(how: PaceClause) -> WatchResponse:
+    """Compose "drive at 0.3 m/s" and "slow down"."""
+    return WatchResponse("slow", pace=how)
+
+
 @construction("reacts: HOLD", cost=0.0)
 def holds() -> WatchResponse:
     """Compose "wait"."""
@@ -167,7 +260,7 @@ def stops_first(first: WatchResponse) -> WatchResponse | None:
 @construction("reacts: first=reacts UNTILOVER", "reacts: first=reacts [COMMA] UNTILOVER COMMA", cost=0.0)
 def until_over(first: WatchResponse) -> WatchResponse | None:
     """Compose "wait until it is over"."""
-    return replace(first, over=True) if first.response == "wait" and not first.over else None
+    return replace(first, over=True) if first.response in ("wait", "slow") and not first.over else None
 
 
 @construction(
@@ -199,7 +292,7 @@ def goes_on(first: WatchResponse) -> WatchResponse | None:
         return None
     if first.response == "wait" and first.at_most_s is not None:
         return replace(first, fallback="go_on")
-    return replace(first, over=True) if first.response in ("wait", "skip", "skip_row") else None
+    return replace(first, over=True) if first.response in ("wait", "skip", "skip_row", "slow") else None
 
 
 @construction(
@@ -217,7 +310,9 @@ def then_reacts(first: WatchResponse, second: WatchResponse) -> WatchResponse | 
     if first.response != "wait" or first.fallback is not None or first.at_most_s is None:
         return None
     fallback = second.response
-    return None if fallback == "wait" or fallback == "skip_row" else replace(first, fallback=fallback)
+    if fallback == "wait" or fallback == "skip_row" or fallback == "slow":
+        return None
+    return replace(first, fallback=fallback)
 
 
 @construction(
@@ -229,6 +324,32 @@ def then_reacts(first: WatchResponse, second: WatchResponse) -> WatchResponse | 
 def watch(on: Conditions, reaction: WatchResponse, used: int) -> WatchCommand:
     """Compose "if it rains, come home"."""
     return WatchCommand(on, reaction, used)
+
+
+@construction("phase: DURING work=WORKV", "phase: DURING work=WORKN", "phase: DURING DET work=WORKN", cost=0.0)
+def during_work(work: Lex) -> tuple[str, ...]:
+    """Compose "while spraying"."""
+    return (work.value,)
+
+
+@construction("phase: DURING act=capture", cost=0.2)
+def during_captures(act: CaptureCommand) -> tuple[str, ...] | None:
+    """Compose "while taking pictures"."""
+    if act.place is not None:
+        return None
+    return tuple(dict.fromkeys(thing.action for thing in act.things))
+
+
+@construction(
+    "command: part=phase COMMA rule=command",
+    "command: rule=command [COMMA] part=phase",
+    cost=0.3,
+)
+def in_a_part(part: tuple[str, ...], rule: WatchCommand, used: int) -> WatchCommand | None:
+    """Compose "while spraying, stop if the wind is above 5 m/s"."""
+    if not isinstance(rule, WatchCommand) or rule.during:
+        return None
+    return replace(rule, during=part, used=used)
 
 
 @construction("command: on=happens ends=FULLSTOP reaction=reacts", cost=0.3)

@@ -23,7 +23,7 @@ from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.places.planted_rows import rows_out_of
 from fieldhand.planning.grammar.places.points import outside_zones
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import as_rows, chooses_from_trees, named_places, over, swapped
+from fieldhand.planning.selections import as_half, as_rows, chooses_from_trees, named_places, over, swapped
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -228,6 +228,8 @@ def _without(
     if (points := outside_zones(whole, out.place.selector)) is not None:
         return replace(command, place=points, used=used)
     among, left_out = ids_of(whole.selector, site), ids_of(out.place.selector, site)
+    if any(part.uses_records for part in out.place.selector.walk()):
+        left_out, among, some = set(), among or set(), False  # what was done before may be known later only
     if among is None or left_out is None or (some and not among & left_out):
         return None
     if first and whole.count is not None and (chosen := getattr(whole.selector, "of", None)) is not None:
@@ -235,7 +237,7 @@ def _without(
         return replace(command, place=replace(whole, selector=swapped(whole.selector, chosen, others)), used=used)
     if named_places(whole.selector):
         whole = replace(whole, count=None)
-    rest = except_for(whole, out.place, site) if not among <= left_out else None
+    rest = except_for(whole, out.place, site) if not among <= left_out or not left_out else None
     if rest is None:
         return None
     shape = (
@@ -263,7 +265,7 @@ def _others(whole: PlaceMeaning, out: Excluded, site: Site) -> PlaceMeaning | No
     if isinstance(part, s.InBlock) and part.of == s.Trees():
         others = [block.name for block in site.planting.blocks if block.name != part.block]
         return replace(whole, like=None, selector=replace(part, block=others[0])) if len(others) == 1 else None
-    return replace(whole, like=None, selector=s.Excluding(places=part)) if isinstance(part, s.Half) else None
+    return replace(whole, like=None, selector=s.Excluding(places=part)) if as_half(part) is not None else None
 
 
 @construction("place: DET OTHER noun=ONE", cost=0.6)

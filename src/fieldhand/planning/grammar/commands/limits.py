@@ -18,8 +18,9 @@ from fieldhand.planning.grammar.meaning import (
     Total,
     VisitLimit,
 )
+from fieldhand.planning.grammar.places.vague import as_many_of_best
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import are_unvisited
+from fieldhand.planning.selections import are_unvisited, as_top
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -358,6 +359,7 @@ def as_many_of(whole: PlaceMeaning) -> PlaceMeaning | None:
         return None
     if are_unvisited(whole.selector):
         return None
-    if whole.count is not None and not all(one.named_tree for one in whole.selector.members):
+    chosen = whole.vague or as_top(whole.selector) is not None  # "of the 30 oldest trees"
+    if whole.count is not None and not chosen and not all(one.named_tree for one in whole.selector.members):
         return None
-    return replace(whole, shape="several", optional=True, count=None)
+    return as_many_of_best(replace(whole, shape="several", optional=True, count=None))

@@ -83,6 +83,19 @@ def slowly(robot: RobotProfile) -> PaceClause:
     return PaceClause(robot.slow_m_s or 0.0, slowly=True)
 
 
+@construction("pace: SLOWDOWN", cost=0.3, given=("robot",))
+def slow_down(robot: RobotProfile, used: int) -> PaceClause:
+    """Compose "slow down"."""
+    return replace(slowly(robot), used=used)
+
+
+@construction("pace: SLOWDOWN [COMMA] how=manner", "pace: SLOWDOWNTO speed=amount", cost=0.3)
+def slow_down_to(used: int, how: PaceClause | None = None, speed: Amount | None = None) -> PaceClause | None:
+    """Compose "slow down to 0.3 m/s"."""
+    found = at_speed(speed) if speed is not None else how
+    return None if found is None else replace(found, used=used)
+
+
 @construction(
     "manner: EASY [COMMA] how=manner",
     "manner: SLOW [COMMA] how=manner",
@@ -120,10 +133,12 @@ def pace(how: PaceClause, used: int) -> PaceClause:
 
 
 @construction(
-    "drive: GO how=manner [COMMA] [AT] place=place", "drive: GO how=manner [COMMA] ALONG place=place", cost=0.4
+    "drive: GO how=manner [COMMA] [word=AT] place=place", "drive: GO how=manner [COMMA] ALONG place=place", cost=0.4
 )
-def drive_at_pace(how: PaceClause, place: PlaceMeaning, used: int) -> DriveCommand | None:
+def drive_at_pace(how: PaceClause, place: PlaceMeaning, used: int, word: Lex | None = None) -> DriveCommand | None:
     """Compose "drive slowly to tree 4"."""
+    if word is not None and "within" in word.features and place.shape in ("area", "several"):
+        return None  # "drive slowly in row 3" says how it drives there
     drives = place.shape in ("one", "several", "area", "step")
     return DriveCommand(place, used, pace=replace(how, used=used)) if drives else None
 

@@ -44,7 +44,7 @@ from fieldhand.planning.grammar.meaning import (
 )
 from fieldhand.planning.grammar.places.numbers import named_trees
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import named_places, swapped
+from fieldhand.planning.selections import as_excluding, named_places, swapped
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -539,7 +539,7 @@ def so_command(before: Said, word: Lex, one: Command, used: int) -> Said | None:
 def _contrasts(clause: LinkedCommand) -> bool:
     """Return True for places behind "but", or at all of some places but others."""
     place = getattr(clause.command, "place", None)
-    left_out = place is not None and any(isinstance(part, s.Excluding) for part in place.selector.walk())
+    left_out = place is not None and any(as_excluding(part) is not None for part in place.selector.walk())
     return left_out or (clause.before is not None and clause.before.contrasts)
 
 

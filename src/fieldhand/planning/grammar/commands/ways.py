@@ -31,7 +31,7 @@ construction = GRAMMAR.construction
 @construction("way_rule: KEEPOUT place=place", "way_rule: place=place OFFLIMITS", cost=0.2)
 def keep_out(place: PlaceMeaning, used: int) -> WayRule | None:
     """Compose "stay out of row 10", "avoid the pond" and "row 10 is off limits"."""
-    places = _kept_from(place)
+    places = kept_from(place)
     return None if places is None else WayRule(tuple((one, 0.0) for one in places), left_out=places, used=used)
 
 
@@ -39,7 +39,7 @@ def keep_out(place: PlaceMeaning, used: int) -> WayRule | None:
 def not_through(place: PlaceMeaning, used: int, word: Lex | None = None) -> WayRule | None:
     """Compose "do not drive through row 10" and "not through row 10"."""
     del word
-    places = _kept_from(place)
+    places = kept_from(place)
     return None if places is None else WayRule(tuple((one, 0.0) for one in places), used=used)
 
 
@@ -71,7 +71,7 @@ def keep_distance(
         return None
     if closer is not None and closer.value is not None and closer.value[0] not in ("lt", "le"):
         return None
-    places = _kept_from(place, far.number)
+    places = kept_from(place, far.number)
     return None if places is None else WayRule(tuple((one, far.number) for one in places), used=used)
 
 
@@ -105,7 +105,8 @@ def only_gates(gates: tuple[str, ...], used: int) -> WayRule:
 def both_rules(first: WayRule, second: WayRule, used: int) -> WayRule:
     """Compose "avoid the pond and drive around the south block"."""
     avoid, gates = (*first.avoid, *second.avoid), (*first.gates, *second.gates)
-    return WayRule(avoid, gates, left_out=(*first.left_out, *second.left_out), used=used)
+    slow = (*first.slow, *second.slow)
+    return WayRule(avoid, gates, left_out=(*first.left_out, *second.left_out), used=used, slow=slow)
 
 
 @construction(
@@ -119,7 +120,7 @@ def also_from(rule: WayRule, place: PlaceMeaning, used: int) -> WayRule | None:
     if not rule.avoid:
         return None
     metres = rule.avoid[-1][1]
-    places = _kept_from(place, metres)
+    places = kept_from(place, metres)
     if places is None or any(one in [known for known, _ in rule.avoid] for one in places):
         return None
     avoid = (*rule.avoid, *((one, metres) for one in places))
@@ -135,14 +136,16 @@ def on_the_way(rule: WayRule, used: int) -> WayRule:
 @construction("excluded: KEEPOUT out=kept_out", cost=0.2)
 def trees_avoided(out: Excluded, used: int) -> Excluded | None:
     """Compose "avoid the yellow trees", which are left out; an area is not driven through as well."""
-    if out.place is None or _kept_from(out.place) is not None:
+    if out.place is None or kept_from(out.place) is not None:
         return None
     return replace(out, used=used)
 
 
 @construction("said: before=said [joint=joint] rule=way_rule", cost=0.2, given=("site",))
-def rule_behind(before: Said, rule: WayRule, site: Site, joint: Connective | None = None) -> Said:
+def rule_behind(before: Said, rule: WayRule, site: Site, joint: Connective | None = None) -> Said | None:
     """Compose "photograph row 3. Stay out of row 5."."""
+    if joint is None and rule.slow:
+        return None  # "photograph every tree at 0.5 m/s in row 3"
     return Said((*_keeping(before, rule, site), LinkedCommand(joint, rule)))
 
 
@@ -155,7 +158,7 @@ def rule_before(rule: WayRule, joint: Connective, rest: Said, site: Site) -> Sai
     return Said((LinkedCommand(None, rule), replace(first, before=joint), *others))
 
 
-def _kept_from(place: PlaceMeaning, metres: float = 0.0) -> tuple[s.Selector, ...] | None:
+def kept_from(place: PlaceMeaning, metres: float = 0.0) -> tuple[s.Selector, ...] | None:
     """Return the places of a phrase from which the robot can keep away; None for others."""
     if place.per is not None or place.optional or place.at_most is not None or place.count is not None:
         return None

@@ -87,6 +87,14 @@ def aisles(noun: Lex | None = None, other: Lex | None = None, rank: Lex | None =
     return Tract(s.Trees(), "aisles", every=every) if every >= 1 else None
 
 
+@construction("tract: part=tract BETWEEN [ROW] first=row_name AND [ROW] last=row_name", cost=0.0)
+def some_aisles_between(part: Tract, first: Lex, last: Lex) -> Tract | None:
+    """Compose "every second aisle between rows 3 and 6"."""
+    if part.mode != "aisles" or part.selector != s.Trees():
+        return None
+    return replace(part, selector=s.Rows(first=name_of(first), last=name_of(last)))
+
+
 @construction("tract: part=tract OF where=region", "tract: part=tract in_ where=region", cost=0.1)
 def tract_of(part: Tract, where: s.Selector) -> Tract | None:
     """Compose "every second aisle of the north block"."""

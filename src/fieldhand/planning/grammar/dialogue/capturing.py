@@ -25,7 +25,7 @@ from fieldhand.planning.grammar.dialogue.fitting import (
     spaced,
     within_area,
 )
-from fieldhand.planning.grammar.dialogue.likewise import anchors, single_places
+from fieldhand.planning.grammar.dialogue.likewise import single_places
 from fieldhand.planning.grammar.dialogue.plans import (
     EMPTY,
     as_choice,
@@ -52,6 +52,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_last_step,
     with_step,
 )
+from fieldhand.planning.grammar.dialogue.unsaid import named_things
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
     LAST_THINGS,
@@ -68,6 +69,7 @@ from fieldhand.planning.grammar.meaning import (
 from fieldhand.planning.grammar.places.compass import AWAY_FROM
 from fieldhand.planning.selections import (
     AREAS,
+    anchors,
     are_rows,
     as_every_nth,
     as_in_row,
@@ -105,7 +107,8 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
     if same and command.place is not None and command.place.shape == "area":
         raise NotComposed(message("at every tree, or at how many?", context="fault"))
     state, command = _with_unsaid_again(setting, state, command)
-    things = meant_things(state, said_things(setting, command))
+    state, things = named_things(setting, state, command)
+    things = meant_things(state, things)
     place, state, before = _place_of(setting, state, command)
     before = (*begun, *before)
     tokens = 0 if command.place is None else command.place.tokens & command.used
@@ -241,14 +244,6 @@ def _act(thing: Thing, times: int, said: Spans) -> p.Act:
     """Return the step of a capture."""
     count = (thing.count or 1) * times
     return p.Act(id="", action=thing.action, count=count, parameters=thing.parameters, said=said)
-
-
-def said_things(setting: Setting, command: CaptureCommand) -> tuple[Thing, ...]:
-    """Return the captures of a command; one that it does not name can be each that the robot is able to."""
-    if not any(thing.action == UNSAID_THING for thing in command.things):
-        return command.things
-    action = setting.either("what is taken?", command.used, [action.name for action in setting.robot.actions])
-    return tuple(replace(thing, action=action) for thing in command.things)
 
 
 def _with_unsaid_again(

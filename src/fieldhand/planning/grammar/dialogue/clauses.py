@@ -33,7 +33,7 @@ from fieldhand.planning.grammar.dialogue.energy import recharged, reserve_in_per
 from fieldhand.planning.grammar.dialogue.faults import Fork
 from fieldhand.planning.grammar.dialogue.fitting import in_area, is_spoken_of
 from fieldhand.planning.grammar.dialogue.fragments import assembled
-from fieldhand.planning.grammar.dialogue.likewise import anchors, with_known_place
+from fieldhand.planning.grammar.dialogue.likewise import with_known_place
 from fieldhand.planning.grammar.dialogue.paces import paced, paced_drive, with_paces
 from fieldhand.planning.grammar.dialogue.plans import (
     EMPTY,
@@ -44,6 +44,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     without_idle_cases,
 )
 from fieldhand.planning.grammar.dialogue.series import is_by_reading, with_read_place
+from fieldhand.planning.grammar.dialogue.slow import ruled
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
@@ -99,6 +100,7 @@ from fieldhand.planning.grammar.meaning import (
 )
 from fieldhand.planning.selections import (
     AREAS,
+    anchors,
     are_rows,
     are_unvisited,
     has_open_number,
@@ -334,7 +336,7 @@ def _read(
         case SettleClause():
             return replace(state, settles=(*state.settles, command))
         case WayRule():
-            return replace(state, ways=(*state.ways, (command, setting.spans_of(command.used))))
+            return ruled(setting, state, command)
         case RechargeClause():
             return recharged(setting, state, command)
         case Allowed():

@@ -31,6 +31,7 @@ from fieldhand.planning.grammar.dialogue.state import (
 )
 from fieldhand.planning.grammar.meaning import DriveCommand, Home, InAnOrder, Lead, PlaceMeaning, VisitLimit
 from fieldhand.planning.grammar.places.compass import SIDES
+from fieldhand.planning.grammar.places.vague import as_many_of_best
 from fieldhand.planning.selections import (
     are_rows,
     as_every_nth,
@@ -426,6 +427,9 @@ def limit_visits(setting: Setting, state: DialogueState, command: VisitLimit) ->
     path = state.loop[:-1]
     loop = for_each_at(state.plan, path)
     counted = state.where is not None and state.where.count is not None
+    if command.count is None and state.where is not None and state.where.vague:
+        ranked = as_many_of_best(replace(state.where, selector=loop.select))
+        loop, counted = replace(loop, select=ranked.selector), False
     if command.count is None and as_some(loop.select) is None:
         counted = False  # "from the ten oldest trees, as many as you can"
     if loop.optional or loop.at_most is not None or counted:

@@ -21,6 +21,7 @@ from fieldhand.planning.grammar.meaning import (
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.places.groups import kind_in_area
 from fieldhand.planning.selections import (
+    anchors,
     are_rows,
     as_in_row,
     as_ordered,
@@ -190,12 +191,6 @@ def _last_known(state: DialogueState) -> s.Selector:
     if not named or not named[-1].single:
         raise NotComposed(message("which place is meant?", context="fault"))
     return named[-1]
-
-
-def anchors(selector: s.Selector) -> tuple[s.Selector, ...]:
-    """Return what trees are said to be near to, or far from."""
-    found = (getattr(selector, name, None) for name in ("to", "origin", "near"))
-    return tuple(one for one in found if isinstance(one, s.Selector))
 
 
 def _rest(state: DialogueState, area: s.Selector) -> s.Selector:

@@ -22,7 +22,7 @@ def paced(
     setting: Setting, state: DialogueState, command: PaceClause, following: Sequence[LinkedCommand]
 ) -> DialogueState:
     """Return the state after a driving speed: that of the command that it stands with, or of the whole mission."""
-    command = _said_speed(setting, command)
+    command = said_speed(setting, command)
     leads = state.commands_in_sentence == 0
     alone = leads and (not following or (following[0].before is not None and following[0].before.full))
     first = leads and not state.plan.steps
@@ -37,11 +37,11 @@ def paced_drive(setting: Setting, before: DialogueState, after: DialogueState, p
     """Return the state after a drive at a speed of its own."""
     step = len(before.plan.steps) if not before.scope else len(before.plan.steps) - 1
     spans = setting.spans_of(pace.used)
-    said = SaidPace(pace=_said_speed(setting, pace), said=spans, step=max(0, step), of_drive=True)
+    said = SaidPace(pace=said_speed(setting, pace), said=spans, step=max(0, step), of_drive=True)
     return replace(after, paces=(*after.paces, said))
 
 
-def _said_speed(setting: Setting, command: PaceClause) -> PaceClause:
+def said_speed(setting: Setting, command: PaceClause) -> PaceClause:
     """Return a driving speed with its number.
 
     Raises:
@@ -61,6 +61,19 @@ def _said_speed(setting: Setting, command: PaceClause) -> PaceClause:
     raise OpenQuestion(asked, command.used)
 
 
+def slow_assumption(setting: Setting, state: DialogueState, pace: PaceClause) -> DialogueState:
+    """Return the state with the assumption of how fast "slowly" is."""
+    if not pace.slowly:
+        return state
+    slow = message(
+        "'{said}' is taken as {speed} m/s, as the robot's profile says.",
+        context="assumption",
+        said=setting.quoted(pace.used),
+        speed=Number(f"{pace.speed:g}"),
+    )
+    return with_assumption(state, slow)
+
+
 def with_paces(setting: Setting, state: DialogueState) -> DialogueState:
     """Return the state at the end of the request, with its driving speeds in the plan or as that of the mission.
 
@@ -68,15 +81,8 @@ def with_paces(setting: Setting, state: DialogueState) -> DialogueState:
         NotComposed: A speed is faster than the robot, or several are said of one part.
     """
     for said in state.paces:
-        _require_possible(setting, said.pace)
-        if said.pace.slowly:
-            slow = message(
-                "'{said}' is taken as {speed} m/s, as the robot's profile says.",
-                context="assumption",
-                said=setting.quoted(said.pace.used),
-                speed=Number(f"{said.pace.speed:g}"),
-            )
-            state = with_assumption(state, slow)
+        require_possible(setting, said.pace)
+        state = slow_assumption(setting, state, said.pace)
     drives = [k for k, step in enumerate(state.plan.steps) if any(one.selector is not None for one in p.walk(step))]
     whole: SaidPace | None = None
     parts: dict[int, SaidPace] = {}
@@ -124,7 +130,7 @@ def _paced(steps: Sequence[p.Node], parts: Mapping[int, SaidPace], drives: Seque
     return tuple(found)
 
 
-def _require_possible(setting: Setting, pace: PaceClause) -> None:
+def require_possible(setting: Setting, pace: PaceClause) -> None:
     """Refuse a speed at which the robot cannot drive.
 
     Raises:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.language import message
+from fieldhand.planning.grammar.dialogue.paces import slow_assumption
+from fieldhand.planning.grammar.dialogue.slow import with_speed
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, with_assumption
 from fieldhand.planning.grammar.meaning import WatchCommand
 from fieldhand.task import plan as p
@@ -17,7 +19,12 @@ def watched(setting: Setting, state: DialogueState, command: WatchCommand) -> Di
     Raises:
         NotComposed: Another sentence says something else about the same condition.
     """
-    reaction = command.reaction
+    reaction, speed = command.reaction, None
+    if reaction.pace is not None:
+        pace = with_speed(setting, reaction.pace, command.used)
+        state, speed = slow_assumption(setting, state, pace), pace.speed
+    if len(command.during) > 1:
+        raise NotComposed(message("it is not clear during what this is to be watched", context="fault"))
     for condition in command.conditions:
         if any(known.condition == condition for known in state.watches):
             raise NotComposed(message("it is said twice what is done then", context="fault"))
@@ -29,6 +36,8 @@ def watched(setting: Setting, state: DialogueState, command: WatchCommand) -> Di
             at_most_s=reaction.at_most_s,
             fallback=fallback if reaction.response == "wait" else Watch.fallback,
             said=setting.spans_of(command.used),
+            speed_m_s=speed,
+            during=command.during[0] if command.during else "",
         )
         state = replace(
             state, watches=(*state.watches, one), after_watch=one.at_most_s is not None or one.response == "end"

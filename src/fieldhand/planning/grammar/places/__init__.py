@@ -10,6 +10,7 @@ from fieldhand.planning.grammar.places import (
     choices,
     chosen,
     clauses,
+    earlier,
     exceptions,
     flags,
     groups,
@@ -28,6 +29,7 @@ from fieldhand.planning.grammar.places import (
     sets,
     spots,
     steps,
+    vague,
 )
 
 GRAMMAR = Grammar()
@@ -53,7 +55,9 @@ for _part in (
     sampling,
     points,
     by_reading,
+    earlier,
     numbered_zones,
+    vague,
     beside_them,
     open_parts,
 ):

@@ -22,6 +22,7 @@ from fieldhand.planning.selections import (
     as_quota,
     as_zone,
     chooses_from_trees,
+    compass_part,
     counts_in_row,
     is_block,
     is_in_block,
@@ -31,6 +32,7 @@ from fieldhand.planning.selections import (
     of_each,
     over,
     specifies_part,
+    swapped,
 )
 from fieldhand.site.model import Site
 
@@ -234,8 +236,9 @@ def block_as_region(block: s.Selector) -> s.Selector:
 )
 def part_of(part: s.Selector, whole: s.Selector, site: Site) -> s.Selector | None:
     """Compose "rows 3 to 5 of the northern half"; of a zone without plants it is a part of the ground."""
-    if isinstance(part, s.Half | s.Quarter) and part.of == s.Trees() and is_bare(whole, site):
-        return replace(part, of=whole)
+    named = compass_part(part)
+    if named is not None and named[1] == s.Trees() and is_bare(whole, site):
+        return swapped(part, s.Trees(), whole)
     return over(part, whole) if chooses_from_trees(part) and _is_larger(whole, part) else None
 
 

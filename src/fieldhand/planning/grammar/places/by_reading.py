@@ -32,7 +32,7 @@ def places_read(quantity: str, count: int, *, lowest: bool, unit: str = "") -> P
 @construction("read_noun: noun=ONE", "read_noun: noun=TREE", "read_noun: noun=POINT", cost=0.0)
 def read_noun(noun: Lex) -> bool:
     """Compose "ones", "trees" and "spots" behind "the hottest": True in the plural."""
-    return noun.plural or "plural" in noun.features
+    return noun.plural or "plural" in noun.features or noun.text.endswith("s")
 
 
 @construction(

@@ -632,6 +632,8 @@ def places_of(chosen: Chosen, site: Site, word: Lex | None = None) -> list[Place
     if chosen.choice.by == "evenly" and chosen.choice.value == s.RowOf():
         own = row_of_all(chosen.inner, site)  # "six basil plants spread evenly along the bed", which is theirs
         chosen = chosen if own is None else replace(chosen, choice=replace(chosen.choice, value=own))
+    if chosen.choice is None:
+        return None
     made = [_place(chosen, choice, n) for choice in _named(chosen.choice, site) for n in numbers]
     if chosen.per is not None:
         made = [None if one is None else in_each_row(one, chosen.per) for one in made]
@@ -741,7 +743,9 @@ def _place(chosen: Chosen, choice: Choice, n: int | None) -> PlaceMeaning | None
     if choice.by == "of every" and n == 1:
         return PlaceMeaning(selector, "several", each=True)
     beside = chosen.neighbours if choice.to is None else choice.to.shape == "here"
-    return PlaceMeaning(selector, "one" if n == 1 else "several", count=n if n > 1 else None, beside=beside)
+    vague = choice.value[0] if choice.by == "best" and n > 1 and chosen.count is None else ""
+    shape: Literal["one", "several"] = "one" if n == 1 else "several"
+    return PlaceMeaning(selector, shape, count=n if n > 1 else None, beside=beside, vague=vague)
 
 
 def _measurable(choice: Choice) -> bool:

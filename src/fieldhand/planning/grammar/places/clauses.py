@@ -42,12 +42,14 @@ class Trait:
         area: Area.
         outside: True if they are outside of the area.
         denied: True if the phrase has "not".
+        earlier: Places by what earlier missions did or read there, instead of a test or an area.
     """
 
     test: AttributeTest | None = None
     area: s.Selector = _ANYWHERE
     outside: bool = False
     denied: bool = False
+    earlier: s.Selector | None = None
 
 
 Clause = tuple[Trait, ...]
@@ -89,6 +91,8 @@ def traits(trait: Trait) -> Clause:
 @construction("traits: is_not trait=trait", cost=0.0)
 def denied(trait: Trait) -> Clause | None:
     """Compose "that are not older than 8 years"."""
+    if trait.earlier is not None:
+        return None
     if trait.test is None:
         return None if trait.outside else (replace(trait, outside=True, denied=True),)
     name, check, value = trait.test
@@ -121,7 +125,8 @@ def which_clause(traits: Clause) -> Clause:
 @construction("relative: traits=traits", cost=0.2)
 def bare_clause(traits: Clause) -> Clause | None:
     """Compose "older than 8 years" behind a noun."""
-    return traits if traits[0].test is not None or traits[0].outside else None
+    first = traits[0]
+    return traits if first.test is not None or first.earlier is not None or first.outside else None
 
 
 @construction(
@@ -144,6 +149,8 @@ def with_attribute(inner: Nominal, clause: Clause) -> Nominal | None:
     for trait in clause:
         if trait.test is not None:
             inner = replace(inner, selector=that_pass(trait.test, inner.selector), tested=True)
+        elif trait.earlier is not None:
+            inner = replace(inner, selector=over(trait.earlier, inner.selector), tested=True)
         elif trait.outside:
             inner = replace(inner, selector=_outside(inner.selector, trait), tested=True)
         elif (there := inside(inner, trait.area, "in")) is not None:
@@ -180,7 +187,7 @@ def those_with_attribute(whole: PlaceMeaning, clause: Clause) -> PlaceMeaning | 
 @construction("place: word=DET clause=relative", cost=0.2)
 def those_of_a_description(word: Lex, clause: Clause) -> PlaceMeaning | None:
     """Compose "those older than 8 years"."""
-    if "stands_for_noun" not in word.features or clause[0].test is None:
+    if "stands_for_noun" not in word.features or (clause[0].test is None and clause[0].earlier is None):
         return None
     described = with_attribute(Nominal(s.Trees()), clause)
     return None if described is None else PlaceMeaning(described.selector, "several")

@@ -326,7 +326,10 @@ def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site) -> PlaceMean
     blocks = set(blocks_of(whole.selector))
     if len(blocks) == 1 and are_rows(part.selector) and is_whole_rows(part.selector) and not is_in_block(part.selector):
         part = replace(part, selector=over(part.selector, blocks.pop()))  # "row 4" behind "rows 1 to 6 of block North"
-    if _is_counted_in_it(part, whole) or (part.shape == "one" and picks_from_all(part.selector)):
+    ranked_before = (
+        part.selector.uses_records and getattr(part.selector, "count", 0) > 0
+    )  # "the 5 hottest of last week"
+    if ranked_before or _is_counted_in_it(part, whole) or (part.shape == "one" and picks_from_all(part.selector)):
         part = replace(part, selector=over(part.selector, whole.selector))  # "every yellow tree but the oldest"
     all_of_it = whole.shape == "area" and part.shape == "several"  # "row 6 except the yellow trees"
     selector = s.Excluding(places=part.selector, of=whole.selector)

@@ -12,7 +12,7 @@ from fieldhand.places.resolution import Resolution, resolve
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import PlaceMeaning
 from fieldhand.planning.grammar.places.compass import SIDES
-from fieldhand.planning.selections import are_rows, as_zone, is_one_row
+from fieldhand.planning.selections import are_rows, as_zone, compass_part, is_one_row
 from fieldhand.site.model import Site
 from fieldhand.terms import Side
 
@@ -28,9 +28,9 @@ _CLEARLY = 1.5
 @construction("region: [DET] OPENPART OF whole=region", "region: [DET] OPENPART in_ whole=region", cost=0.2)
 def some_side_of(whole: s.Selector) -> list[s.Selector] | None:
     """Compose "the bottom of the slope": which side is that?"""
-    if are_rows(whole) or any(isinstance(part, s.Half | s.Quarter | s.Edge) for part in whole.walk()):
+    if are_rows(whole) or any(compass_part(part) is not None or isinstance(part, s.Edge) for part in whole.walk()):
         return None
-    return [s.Half(side=cast(Side, side), of=whole) for side in SIDES]
+    return [s.Half(side=side, of=whole) for side in SIDES]
 
 
 @construction(

@@ -10,6 +10,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.places.numbers import VAGUE_NUMBERS
+from fieldhand.planning.grammar.places.vague import as_many_of_best
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import is_by_attribute, is_description
 from fieldhand.site.model import Site
@@ -78,7 +79,7 @@ def quantified(quantity: Determiner, inner: Nominal, site: Site) -> list[PlaceMe
     if kind == "some":
         return [PlaceMeaning(s.Take(count=n, of=inner.selector), "several", count=n) for n in VAGUE_NUMBERS]
     if inner.plural:
-        return [PlaceMeaning(inner.selector, "several")] if kind != "a" else None
+        return [PlaceMeaning(inner.selector, "several", vague=inner.vague)] if kind != "a" else None
     return _those_there(1, inner, site) if kind == "the" else None
 
 
@@ -89,7 +90,7 @@ def unquantified(inner: Nominal) -> PlaceMeaning | None:
         return PlaceMeaning(inner.selector, "one")
     if inner.complete:
         return PlaceMeaning(inner.selector, "several", count=inner.complete)
-    return PlaceMeaning(inner.selector, "several") if inner.plural else None
+    return PlaceMeaning(inner.selector, "several", vague=inner.vague) if inner.plural else None
 
 
 def _all_of(quantity: Determiner, inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
@@ -148,7 +149,9 @@ def some_or_all(n: int, selector: s.Selector, site: Site) -> list[PlaceMeaning] 
 @construction("place: ASMANY [DET] [OTHER] inner=nominal", cost=2.0)
 def as_many(inner: Nominal) -> PlaceMeaning | None:
     """Compose "as many trees as you can"."""
-    return None if inner.single or not inner.plural else PlaceMeaning(inner.selector, "several", optional=True)
+    if inner.single or not inner.plural:
+        return None
+    return as_many_of_best(PlaceMeaning(inner.selector, "several", optional=True, vague=inner.vague))
 
 
 @construction("place: UPTO n=count inner=nominal", "place: check=CMP n=count inner=nominal", cost=0.2)

@@ -15,7 +15,16 @@ from fieldhand.planning.grammar.places.exceptions import Omission
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.places.points import outside_zones
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import OPEN_NUMBER, as_some, as_zone, chooses_from_trees, over, rows_of
+from fieldhand.planning.selections import (
+    OPEN_NUMBER,
+    as_excluding,
+    as_some,
+    as_zone,
+    chooses_from_trees,
+    compass_part,
+    over,
+    rows_of,
+)
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -85,9 +94,9 @@ def bare_ground(area: s.Selector | None, site: Site) -> BareGround | None:
     """Return the ground that an area is, if no trees grow in it and it has a name; None otherwise."""
     if area is None or area == s.Trees():
         return None if site.trees else BareGround("")
-    if isinstance(area, s.Excluding):
-        inner = bare_ground(area.of, site)
-        outs = [as_zone(part) for part in area.places.members]
+    if (rest := as_excluding(area)) is not None:
+        inner = bare_ground(rest.of, site)
+        outs = [as_zone(part) for part in rest.places.members]
         plain = [one.zone for one in outs if one is not None and not one.outside and not one.margin_m]
         return replace(inner, left_out=(*inner.left_out, *plain)) if inner and len(plain) == len(outs) else None
     zone = bare_zone(area, site)
@@ -111,15 +120,14 @@ def is_keep_out(area: s.Selector, site: Site) -> bool:
 
 def bare_points(area: s.Selector, site: Site, count: int, *, random: bool = False) -> s.PointsIn | None:
     """Return so many free points of ground without plants: a zone, a half or a quarter of one; None for other areas."""
-    match area:
-        case s.Half(side=part, of=of) | s.Quarter(quarter=part, of=of):
-            whole = bare_points(of, site, count, random=random)
-            return replace(whole, part=part) if whole is not None and whole.part == "all" else None
-        case s.Trees() if not site.trees:
-            return s.PointsIn(count=count, random=random)
-        case _:
-            zone = bare_zone(area, site)
-            return s.PointsIn(zone=zone, count=count, random=random) if zone else None
+    if (named := compass_part(area)) is not None:
+        part, of = named
+        whole = bare_points(of, site, count, random=random)
+        return replace(whole, part=part) if whole is not None and whole.part == "all" else None
+    if area == s.Trees() and not site.trees:
+        return s.PointsIn(count=count, random=random)
+    zone = bare_zone(area, site)
+    return s.PointsIn(zone=zone, count=count, random=random) if zone else None
 
 
 # Shares.
@@ -375,9 +383,10 @@ def grid_but(on: tuple[float, s.Selector | None], out: Omission) -> tuple[float,
 
 def grid_selector(every: float, area: s.Selector | None, site: Site) -> s.Selector | None:
     """Return the places of a grid over an area, or over the site; None for ground without trees that has no name."""
-    if isinstance(area, s.Excluding):  # "over the meadow except the wet corner"
-        inner = grid_selector(every, area.of, site)
-        kept = None if inner is None else outside_zones(PlaceMeaning(inner, "several"), area.places)
+    rest = None if area is None else as_excluding(area)
+    if rest is not None:  # "over the meadow except the wet corner"
+        inner = grid_selector(every, rest.of, site)
+        kept = None if inner is None else outside_zones(PlaceMeaning(inner, "several"), rest.places)
         if kept is not None:
             return kept.selector
     ground = bare_ground(area, site)

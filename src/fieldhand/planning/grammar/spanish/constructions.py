@@ -16,6 +16,7 @@ from fieldhand.planning.grammar.meaning import Amount, CaptureCommand, Nominal, 
 from fieldhand.planning.grammar.places import (
     chosen,
     clauses,
+    earlier,
     groups,
     nouns,
     numbers,
@@ -111,6 +112,21 @@ construction(
     "place: DET POINT step=stride",
     cost=0.3,
 )(steps.tree_along_row)
+
+
+# Earlier missions: "los 10 árboles más calientes de la semana pasada".
+construction(
+    "place: [DET] n=count several=read_noun most=hottest when=PERIOD",
+    "place: [DET] several=read_noun most=hottest when=PERIOD",
+    cost=0.3,
+)(earlier.most_read_earlier)
+construction(
+    "with_most: WITH [DET] noun=NOUN most=STATISTIC", "with_most: WITH [DET] most=STATISTIC noun=NOUN", cost=0.0
+)(earlier.with_most)
+construction(
+    "earlier_test: WAS subject=measured test=predicate when=PERIOD", "earlier_test: WAS test=predicate when=PERIOD",
+    cost=0.1, given=("robot",),
+)(earlier.was_read)  # fmt: skip
 
 
 # Commands and clauses.

@@ -12,6 +12,7 @@ from typing import Any
 from fieldhand.planning.english.lexicon import Lexicon, lexicon_for
 from fieldhand.planning.english.naming import NameEntry, Naming, Phrase
 from fieldhand.planning.english.tokens import Word
+from fieldhand.planning.grammar.spanish.earlier import earlier_edges
 from fieldhand.planning.grammar.spanish.inflection import adjective_forms, plural_of, verb_forms
 from fieldhand.planning.grammar.spanish.lexicon import tables
 from fieldhand.planning.grammar.spanish.tokens import folded, words_of
@@ -46,9 +47,9 @@ class SpanishPhrases:
         """Return the features of a phrase."""
         return _features().of(phrase)
 
-    def spotted(self, words: Sequence[Word]) -> Iterator[tuple[str, int, int, Any]]:  # noqa: ARG002
-        """Yield nothing: events are understood in English only."""
-        yield from ()
+    def spotted(self, words: Sequence[Word]) -> Iterator[tuple[str, int, int, Any]]:
+        """Yield the phrases about earlier missions; events are understood in English only."""
+        yield from earlier_edges(words, self.robot)
 
     def entries(self, phrase: Phrase) -> Iterator[NameEntry]:
         """Yield everything that a phrase can be."""

@@ -120,7 +120,7 @@ def _hours(words: Sequence[Word], start: int) -> Iterator[PhraseEdge]:
     word = words[start]
     number = vocabulary()["numbers"].get(word.norm) if word.kind == "word" else None
     number = int(word.norm) if word.kind == "number" and word.norm.isdecimal() else number
-    if number not in range(1, 13):
+    if number is None or number not in range(1, 13):
         return
     behind = words[start + 1] if start + 1 < len(words) else None
     if behind is None or behind.kind in ("comma", "stop") or behind.norm in _behind_hours():

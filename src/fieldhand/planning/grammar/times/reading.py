@@ -51,9 +51,18 @@ class RequestTimes:
         return self.part.timing(self.said, zone)
 
 
-def without_times(words: Sequence[Word]) -> RequestTimes | None:
-    """Return the times of a request and the words without them; None if it says none, or several that contradict."""
-    phrases = [phrase for phrase in _phrases(words) if _is_of_mission(phrase, words)]
+def without_times(words: Sequence[Word], earlier: frozenset[int] = frozenset()) -> RequestTimes | None:
+    """Return the times of a request and the words without them; None if it says none, or several that contradict.
+
+    Args:
+        words: Words of the request.
+        earlier: Numbers of the words that state a time of earlier missions.
+    """
+    phrases = [
+        phrase
+        for phrase in _phrases(words)
+        if _is_of_mission(phrase, words) and earlier.isdisjoint(range(phrase.start, phrase.end))
+    ]
     part: TimePart | None = TimePart()
     for phrase in phrases:
         part = None if part is None else part & phrase.meaning

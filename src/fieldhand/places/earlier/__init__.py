@@ -1,0 +1,1 @@
+"""Selectors by what earlier missions did and read on the site."""

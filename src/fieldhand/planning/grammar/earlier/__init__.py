@@ -1,0 +1,1 @@
+"""Words about earlier missions: periods of the past, what was done in them, and what was read."""

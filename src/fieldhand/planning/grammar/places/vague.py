@@ -1,0 +1,150 @@
+"""Constructions of trees that are described without a value: "weak vines", "the worst trees".
+
+Numbers that a person would ask for become readings of their own, so that the plans differ in them and the person is
+asked: from which value on a vine is weak, and by which attribute a tree is bad.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
+from fieldhand.planning.grammar.places.chosen import Choice
+from fieldhand.planning.grammar.places.compass import CORNERS
+from fieldhand.planning.grammar.places.numbers import VAGUE_NUMBERS
+from fieldhand.planning.grammar.words import Lex, hinted_attributes
+from fieldhand.planning.selections import as_top, chooses_from_trees, swapped
+from fieldhand.site.model import Site
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+#: Words in the names of attributes by which a plant is good or bad.
+_QUALITIES = (
+    "vigor",
+    "vigour",
+    "yield",
+    "health",
+    "ndvi",
+    "quality",
+    "growth",
+    "condition",
+    "score",
+    "rating",
+    "grade",
+)
+#: Shares of the trees, of which each is offered as those that a word means.
+_SHARES = (0.05, 0.10, 0.25)
+#: Words in the names of attributes that say how high a place lies.
+_HEIGHTS = ("elevation", "altitude", "elev")
+_ANYWHERE = s.Trees()
+#: Number of the best trees of which as many as possible are visited, by the number offered if all of them are.
+_AMONG = dict(zip(VAGUE_NUMBERS, (10, 30, 100), strict=True))
+#: Minimum number of different values of an attribute by which trees are ranked.
+_FEWEST_VALUES = 3
+
+
+def qualities(site: Site) -> list[str]:
+    """Return the attributes of a site that say how good a tree is."""
+    hinted = dict.fromkeys(name for hint in _QUALITIES for name in hinted_attributes(hint, site))
+    return [name for name in hinted if len(_numbers(name, site)) >= _FEWEST_VALUES]
+
+
+@construction("chosen_by: rank=SUPER", cost=0.3, given=("site",))
+def by_quality(rank: Lex, site: Site) -> list[Choice] | None:
+    """Compose "worst" without an attribute."""
+    if rank.value[0] or "judges" not in rank.features:
+        return None
+    return [Choice("best", (name, rank.value[1])) for name in qualities(site)] or None
+
+
+@construction("vague: word=VAGUEADJ inner=nominal", "vague: inner=nominal WHICH IS word=VAGUEADJ", cost=0.0)
+def vaguely(word: Lex, inner: Nominal) -> tuple[Nominal, tuple[str, bool], str] | None:
+    """Compose "weak vines"."""
+    return (inner, word.value, "") if word.value[0] != "=" and _can_be_ranked(inner) else None
+
+
+@construction(
+    "vague: word=VAGUEADJ [DASH] attribute=ATTR inner=nominal",
+    "vague: inner=nominal WITH [DET] word=VAGUEADJ attribute=ATTR",
+    "vague: inner=nominal OF [DET] word=VAGUEADJ attribute=ATTR",
+    cost=0.0,
+)
+def vaguely_by(word: Lex, attribute: Lex, inner: Nominal) -> list[tuple[Nominal, tuple[str, bool], str]] | None:
+    """Compose "vines of low vigor"."""
+    if not _can_be_ranked(inner):
+        return None
+    return [(inner, word.value, name) for name in attribute.value]
+
+
+def _can_be_ranked(inner: Nominal) -> bool:
+    return inner.plural and not (inner.single or inner.complete or inner.pronoun) and chooses_from_trees(inner.selector)
+
+
+@construction("nominal: said=vague", cost=1.0, given=("site",))
+def from_some_value_on(said: tuple[Nominal, tuple[str, bool], str], site: Site) -> list[Nominal] | None:
+    """Compose "weak vines" as those with a vigor below one of some values."""
+    inner, (_, lowest), _ = said
+    found = [
+        replace(
+            inner,
+            selector=s.Where(attribute=name, test="lt" if lowest else "gt", value=value, of=inner.selector),
+            tested=True,
+            vague=name,
+        )
+        for name in _attributes(said, site)
+        for value in _thresholds(name, site, lowest=lowest)
+    ]
+    return found or None
+
+
+def as_many_of_best(place: PlaceMeaning) -> PlaceMeaning:
+    """Return places of which as many as possible are visited: among more of the best ones if no number was given.
+
+    "As many of the weakest vines as you can" leaves open among how many of them; each number is a reading of its own.
+    """
+    for part in place.selector.walk():
+        top = as_top(part)
+        if place.vague and top is not None and top.attribute == place.vague and top.count in _AMONG:
+            among = replace(top, count=_AMONG[top.count])
+            return replace(place, selector=swapped(place.selector, top, among), count=None)
+    return place
+
+
+def _attributes(said: tuple[Nominal, tuple[str, bool], str], site: Site) -> Sequence[str]:
+    """Return the attributes that a description can be about."""
+    _, (hint, _), named = said
+    names = [named] if named else hinted_attributes(hint, site) if hint else qualities(site)
+    return [name for name in names if len(_numbers(name, site)) >= _FEWEST_VALUES]
+
+
+def _numbers(attribute: str, site: Site) -> list[float]:
+    """Return the values of an attribute that are numbers, one for each tree, in order."""
+    found = (tree.properties.get(attribute) for tree in site.trees)
+    return sorted(value for value in found if isinstance(value, float))
+
+
+def _thresholds(attribute: str, site: Site, *, lowest: bool) -> Sequence[float]:
+    """Return rounded values below which (or above which) some of the trees are, the fewest first."""
+    values = _numbers(attribute, site)
+    if not lowest:
+        values.reverse()
+    rounded = (float(f"{values[round(share * (len(values) - 1))]:.2g}") for share in _SHARES)
+    found = [value for value in dict.fromkeys(rounded) if (values[0] < value if lowest else values[0] > value)]
+    return found if len(found) > 1 else list(dict.fromkeys(values))[1 : len(_SHARES) + 1]
+
+
+@construction("place: [DET] rank=SUPER noun=CORNER", cost=0.3, given=("site",))
+@construction("place: [DET] rank=SUPER noun=CORNER in_ where=region", cost=0.3, given=("site",))
+def corner_by_height(rank: Lex, noun: Lex, site: Site, where: s.Selector = _ANYWHERE) -> list[PlaceMeaning] | None:
+    """Compose "the lowest corner": the site's file says which, or it may be each of the four."""
+    if rank.value[0] or "steep" not in rank.features or noun.plural or not chooses_from_trees(where):
+        return None
+    known = [name for hint in _HEIGHTS for name in hinted_attributes(hint, site)]
+    if known:
+        corners = s.Corners(of=where)
+        return [PlaceMeaning(s.Top(attribute=name, count=1, lowest=rank.value[1], of=corners), "one") for name in known]
+    return [PlaceMeaning(s.Corners(which=(corner,), of=where), "one") for corner in CORNERS]
