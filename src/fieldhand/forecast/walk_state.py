@@ -25,6 +25,7 @@ from fieldhand.task.plan import Act, Node, WorkAlong
 from fieldhand.task.run import PlanRun
 
 if TYPE_CHECKING:
+    from fieldhand.forecast.charged_visits import ChargedVisits
     from fieldhand.orienteering.preview import Preview
     from fieldhand.site.drives import Drives
     from fieldhand.site.working.stretch import Stretch
@@ -253,10 +254,11 @@ class WalkState:
         if self.readings is not None:
             self.readings.collect(reading, 0)
 
-    def sample_visits(self, preview: Preview, works: Sequence[Work]) -> None:
+    def sample_visits(self, preview: Preview, works: Sequence[Work], charged: ChargedVisits | None) -> None:
         """Add the optional visits of each sampled mission."""
         if self.samples is not None:
-            visits = SampledVisits(preview=preview, works=tuple(works), slower_s_per_m=self.slower_s_per_m)
+            slower = self.slower_s_per_m
+            visits = SampledVisits(preview=preview, works=tuple(works), slower_s_per_m=slower, charged=charged)
             self.samples.visit(visits)
             self.sampled.append(visits)
 
