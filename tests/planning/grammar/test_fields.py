@@ -271,7 +271,7 @@ REFUSED = [
         GLASSHOUSE,
         HUSKY,
         "measure the soil moisture in bed 3",
-        "'measure the soil moisture' asks for something that husky does not record",
+        "husky cannot read the soil moisture: no action 'read_soil_moisture'",
     ),
     (PASTURE, AMIGA, "soil moisture at the four corners of the bank", "this site records no plants: every tree"),
     (GARDEN, AMIGA, "photograph the carrots", "not understood: 'carrots'"),

@@ -170,6 +170,7 @@ def test_other_numbers_are_no_times(request_: str) -> None:
     [
         ("Tomorrow, not before ten, measure CO2 at tree 4.", "day=tomorrow not_before=10:00"),
         ("After 7 this evening, measure CO2 at tree 4.", "day=today not_before=19:00"),
+        ("Measure CO2 at tree 4 this morning at 8.", "day=today not_before=08:00 not_after=08:15"),
         ("Measure CO2 at tree 4 tonight at eleven.", "day=today not_before=23:00 not_after=23:15"),
         ("Tomorrow morning, no earlier than seven, measure CO2 at tree 4.", "day=tomorrow not_before=07:00"),
         ("Measure CO2 at tree 4 before nine tomorrow.", "day=tomorrow done_by=09:00"),

@@ -193,7 +193,6 @@ KEPT = [
     "Take a picture of tree 4, then this afternoon of tree 5.",
     "Take a picture of the trees we pruned this morning.",
     "Photograph the trees that were photographed this morning.",
-    "Take a picture of tree 4 this morning at 8.",
     "Take a picture of tree 4 tomorrow before lunch.",
     "Every day before lunch take a picture of tree 4.",
     "Take a picture of tree 4 before the end of the month.",

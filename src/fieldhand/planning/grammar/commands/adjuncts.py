@@ -97,14 +97,20 @@ def once_more() -> Adjunct:
     "adjunct: times=count EACH",
     "adjunct: number=things EACH",
     "adjunct: number=things INEACH",
-    "adjunct: times=count PER TREE",
-    "adjunct: number=things PER TREE",
     cost=0.2,
 )
 def of_each(times: int | None = None, number: tuple[Thing, ...] | None = None) -> Adjunct:
     """Compose "each" behind "two pictures", "twice each", "one each" and "two pictures each"."""
     specifies = number is not None and [one.action for one in number] in ([UNSAID_THING], [LAST_THING])
     return Adjunct(_each, times or number, is_sentence=specifies)
+
+
+@construction("adjunct: times=count PER TREE", "adjunct: number=things PER TREE", cost=0.2)
+def so_many_at_each(times: int | None = None, number: tuple[Thing, ...] | None = None) -> Adjunct | None:
+    """Compose "two at each plant" behind what is captured there."""
+    if number is not None and any(one.count is None for one in number):
+        return None
+    return of_each(times, number)
 
 
 # At which trees of the place.
