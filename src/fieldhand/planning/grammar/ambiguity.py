@@ -129,8 +129,9 @@ def _question_of_ways(plans: Sequence[Planned], request: str) -> PlanQuestion | 
     for plan in plans:
         answer = capitalised(joined(" ", say_ways(plan.task.constraints)))
         left[answer] = (*left.get(answer, ()), plan)
-    rules = (rule for plan in plans for rule in (*plan.task.constraints.avoid, *plan.task.constraints.only_gates))
-    spans = [span for rule in rules for span in rule.said]
+    rules = [plan.task.constraints for plan in plans]
+    spans = [span for rule in rules for avoid in rule.avoid for span in avoid.said]
+    spans += [span for rule in rules for gate in rule.only_gates for span in gate.said]
     if len(left) < 2 or not spans:
         return None
     start, end = min(start for start, _ in spans), max(end for _, end in spans)

@@ -629,10 +629,10 @@ def places_of(chosen: Chosen, site: Site, word: Lex | None = None) -> list[Place
     if indefinite and (chosen.inner.plural or chosen.count is not None) and chosen.choice.by != "nearby":
         return None
     numbers = _numbers(chosen, definite=word is not None)
-    if chosen.choice.by == "evenly" and chosen.choice.value == s.RowOf():
-        own = row_of_all(chosen.inner, site)  # "six basil plants spread evenly along the bed", which is theirs
-        chosen = chosen if own is None else replace(chosen, choice=replace(chosen.choice, value=own))
-    made = [_place(chosen, choice, n) for choice in _named(chosen.choice, site) for n in numbers]
+    how = chosen.choice
+    if how.by == "evenly" and how.value == s.RowOf() and (own := row_of_all(chosen.inner, site)) is not None:
+        how = replace(how, value=own)  # "six basil plants spread evenly along the bed", which is theirs
+    made = [_place(chosen, choice, n) for choice in _named(how, site) for n in numbers]
     if chosen.per is not None:
         made = [None if one is None else in_each_row(one, chosen.per) for one in made]
     return [one for one in made if one is not None] or None

@@ -30,7 +30,7 @@ def some_side_of(whole: s.Selector) -> list[s.Selector] | None:
     """Compose "the bottom of the slope": which side is that?"""
     if are_rows(whole) or any(isinstance(part, s.Half | s.Quarter | s.Edge) for part in whole.walk()):
         return None
-    return [s.Half(side=cast(Side, side), of=whole) for side in SIDES]
+    return [s.Half(side=side, of=whole) for side in SIDES]
 
 
 @construction(
