@@ -262,8 +262,8 @@ PLANNED = [
         GARDEN,
         AMIGA,
         "a leaf of the shortest bean and one of the tallest",
-        "sample_leaf @ Top(height_cm, 1, True, of Where(crop, eq, bean)); sample_leaf @ Top(height_cm, 1, "
-        "of Where(crop, eq, bean))",
+        "for UnionOf(Top(height_cm, 1, True, of Where(crop, eq, bean))+Top(height_cm, 1, of Where(crop, eq, bean))): "
+        "[sample_leaf]",
     ),
     (
         GARDEN,

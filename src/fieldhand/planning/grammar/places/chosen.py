@@ -12,7 +12,7 @@ from typing import Any, Literal
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
+from fieldhand.planning.grammar.meaning import Likewise, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.areas import inside
 from fieldhand.planning.grammar.places.compass import AWAY_FROM, CORNERS, SIDES
 from fieldhand.planning.grammar.places.counted import Positions, TreeNumbers, row_of_all, rows_within
@@ -741,7 +741,9 @@ def _place(chosen: Chosen, choice: Choice, n: int | None) -> PlaceMeaning | None
     if choice.by == "of every" and n == 1:
         return PlaceMeaning(selector, "several", each=True)
     beside = chosen.neighbours if choice.to is None else choice.to.shape == "here"
-    return PlaceMeaning(selector, "one" if n == 1 else "several", count=n if n > 1 else None, beside=beside)
+    ranked = inner.pronoun and choice.by == "best" and n == 1 and of == s.Trees()  # "one of the youngest"
+    like = Likewise("ranked") if ranked else None
+    return PlaceMeaning(selector, "one" if n == 1 else "several", count=n if n > 1 else None, beside=beside, like=like)
 
 
 def _measurable(choice: Choice) -> bool:
