@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 
 import pytest
@@ -175,6 +176,30 @@ def test_it_turns_home_at_the_charge_that_the_task_names(site: Site) -> None:
     assert done.status == "returned"
     crossed = next(e for e in of_type(done.events, LimitCrossed) if e.then == "return")
     assert crossed.threshold == 60.0
+
+
+def home_after_work_beside_the_charger(site: Site, count: int, **constraints: object) -> mission.Run:
+    """Return a mission whose way home is longer than that to the charger; its legs cost what they are long."""
+    robot, plan = rechargeable(alpha=1.0), Act(action="take_thermal_picture", at=TreeIs(tree="1"), count=count)
+    task = task_of(plan, site, robot, recharge=True, **constraints)
+    composition = replace(task.composition, nominal="return_to_start")
+    return simulated(replace(task, composition=composition), site, robot)
+
+
+def test_charges_for_the_way_home_if_it_would_fall_below_the_reserve(site: Site) -> None:
+    done = home_after_work_beside_the_charger(site, 92)
+    last = [e.event for e in done.events if isinstance(e, Acted | ChargeEnded | Exited)][-3:]
+    assert last == ["action", "charged", "exit"]
+    (ended,) = of_type(done.events, Ended)
+    assert done.status == "completed", done.reason
+    assert ended.charge_percent >= 20.0
+
+
+def test_a_charge_that_was_only_wished_for_is_not_made_before_the_way_home(site: Site) -> None:
+    done = home_after_work_beside_the_charger(site, 84, recharge_below_percent=40.0)
+    (ended,) = of_type(done.events, Ended)
+    assert 20.0 <= ended.charge_percent < 40.0
+    assert not of_type(done.events, ChargeEnded)
 
 
 def test_work_at_one_place_is_continued_after_a_charge(site: Site) -> None:

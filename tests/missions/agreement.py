@@ -322,7 +322,7 @@ class Drawn:
             )
             for k in self._rng.permutation(4)[: int(self._rng.integers(0, 3))].tolist()
         )
-        avoid = (Avoid(places=Marker(name="hole"), distance_m=2.0),) if self._chance(0.3) else ()
+        avoid = (Avoid(places=Marker(name="hole"), distance_m=2.0),) if self._chance(0.3) else ()  # type: ignore[arg-type]
         return Constraints(avoid=avoid, slow=slow)
 
     def watches(self) -> tuple[Watch, ...]:
@@ -513,7 +513,12 @@ class AsChosen:
         self._taken = {node: deque(answers) for node, answers in flight.taken.items()}
 
     def visits(
-        self, walker: ForecastHandler, node: ForEach, places: tuple[Place, ...], closed: tuple[Place, ...]
+        self,
+        walker: ForecastHandler,
+        node: ForEach | WorkAlong,
+        places: tuple[Place, ...],
+        closed: tuple[Place, ...],
+        stretches: tuple[Visit, ...] = (),
     ) -> tuple[Place, ...]:
         return self.next(node.id)
 
@@ -523,7 +528,7 @@ class AsChosen:
 
     def takes(self, walker: ForecastHandler, node: OptionalStep) -> bool:
         taken = self._taken.get(node.id)
-        return bool(taken) and taken.popleft()  # a step that cannot be reached is not offered to the guard
+        return taken.popleft() if taken else False  # a step that cannot be reached is not offered to the guard
 
 
 def simulated(seed: int) -> Simulated:

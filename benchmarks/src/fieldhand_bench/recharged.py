@@ -113,8 +113,8 @@ class RechargedSummary:
 
     @property
     def passed(self) -> bool:
-        """Return True if none was stranded, and the p90 of the time holds for 85 to 95 % of the missions."""
-        return not self.stranded and 0.85 <= self.within[0] <= 0.95
+        """Return True if none was stranded, and each forecast p90 holds for 85 to 95 % of the missions."""
+        return not self.stranded and all(0.85 <= share <= 0.95 for share in self.within)
 
 
 def draw_recharged(seed: int, attempt: int = 0) -> RechargedDraft | None:

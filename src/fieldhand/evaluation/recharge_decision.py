@@ -57,7 +57,7 @@ class RechargeDecider:
         needed = self._needed(rules, here, visit, after, charged=permitted)
         if permitted and charge >= needed:
             return RechargeDecision(decision="go")
-        if not rules.must_charge(charge, needed):
+        if not rules.must_charge(charge, needed, ends=visit.ends):
             return RechargeDecision(decision="go")
         first = self._needed(rules, rules.charger, visit, after, charged=True)
         able = state.charges < rules.at_most and bool(rules.gains(charge)) and first <= rules.until_percent

@@ -42,6 +42,9 @@ _SURELY = 0.6
 #: Charge in percent above a level at which it counts as left again: the battery was changed or charged.
 CLEAR_PERCENT = 3.0
 
+#: Charge in percent for which a wait goes on at least, where it can be left off to charge.
+PART_PERCENT = 2.0
+
 #: ``plan``: carrying out the plan. ``exit``: on the way home. ``over``: the robot stands, or was ordered to stop.
 Phase = Literal["plan", "exit", "over"]
 BatteryAlarm = Literal["none", "return", "stop", "shelter"]
@@ -325,10 +328,18 @@ class LimitMonitor:
         metres = charger_distance(mission.drives, at, charger)
         return math.inf if metres is None else metres
 
+    @property
+    def _wait_left_s(self) -> float:
+        """Return the seconds left of a wait; no more than the next part of it where it can be left off to charge."""
+        mission, robot = self._mission, self._mission.robot
+        if not mission.may_recharge or not robot.energy.idle_w:
+            return mission.dwell_left_s
+        return min(mission.dwell_left_s, PART_PERCENT / robot.percent(0.0, 1.0))
+
     def _work_left(self, doing: OpenDrive | OpenCapture | None, on_m: float) -> Work:
         """Return the work left of a capture, a stretch or a wait, or the time that a pace adds to a drive."""
         if doing is None:
-            return Work(seconds=self._mission.dwell_left_s)
+            return Work(seconds=self._wait_left_s)
         constraints, robot = self._mission.task.constraints, self._mission.robot
         if isinstance(doing, OpenStretch):
             rest = doing.stretch.part(self._mission.controller.reached_m, doing.stretch.length_m)

@@ -253,7 +253,7 @@ class MissionRunner:
         stopped = self._stopped()
         if stopped and tree.status == Status.FAILURE:
             return self._aborted(stopped)
-        if tree.status == Status.SUCCESS:
+        if tree.status == Status.SUCCESS and tree.ended:
             return Ending(status="completed", exit="nominal", then=mission.task.composition.nominal)
         if tree.status == Status.FAILURE:
             then = mission.exit_for(mission.fault)

@@ -153,7 +153,7 @@ class PlanExecutor:
         home = mission.site.home(mission.task.composition.nominal, mission.standing)
         state = mission.state()
         state = replace(state, frames=(StackFrame(node=mission.run.plan),))
-        verdict = mission.guard.admit(state, Visit(place=home))
+        verdict = mission.guard.admit(state, Visit(place=home, ends=True))
         if verdict.charge_to:
             yield from self._charge(verdict.reason, verdict.charge_to)
 

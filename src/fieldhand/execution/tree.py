@@ -7,7 +7,7 @@ current node, and each behavior has the status of its node.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import suppress
+from contextlib import contextmanager
 
 from py_trees.behaviour import Behaviour
 from py_trees.common import Status
@@ -68,12 +68,15 @@ class MissionTree(NodeBehavior):
         self.mission = mission
         self._executor = PlanExecutor(mission)
         self._program = self._executor.program()
+        #: True once nothing of the plan is left to do, not even a charge for the way home.
+        self.ended = False
         self._behavior: dict[str, NodeBehavior] = {b.node.id: b for b in self.iterate() if isinstance(b, NodeBehavior)}
         mission.run.entered, mission.run.left = self._entered, self._left
 
     def tick(self) -> Iterator[Behaviour]:
         """Advance until the robot is busy, a round is over, or the plan has ended."""
-        next(self._program, None)
+        with self._until_ended():
+            next(self._program)
         yield from super().tick()
 
     def stop(self, new_status: Status = Status.INVALID) -> None:
@@ -98,8 +101,16 @@ class MissionTree(NodeBehavior):
         visit = self.current_visit
         assert visit is not None  # noqa: S101  callers have checked it
         visit.skip(why, row=row)
-        with suppress(StopIteration):
+        with self._until_ended():
             self._program.throw(GivenUp(visit.node.id))
+
+    @contextmanager
+    def _until_ended(self) -> Iterator[None]:
+        """Advance the program in this context; note its end."""
+        try:
+            yield
+        except StopIteration:
+            self.ended = True
 
     def give_up(self, verdict: Verdict) -> None:
         """Report the current work and all later work as given up."""

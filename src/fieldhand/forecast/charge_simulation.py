@@ -14,16 +14,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from fieldhand.forecast.charging_missions import ChargingMissions
 from fieldhand.forecast.mission_state import Work
-from fieldhand.forecast.recharge_rules import (
-    ChargeCycle,
-    RechargeRules,
-    charge_cycle,
-    charge_target,
-    charger_distance,
-)
-from fieldhand.forecast.resource_limits import speed_of
-from fieldhand.forecast.sampled_costs import MissionSamples, SampledCharging, SampledUse, SampledVisits
+from fieldhand.forecast.recharge_rules import RechargeRules, charger_distance
+from fieldhand.forecast.sampled_costs import MissionSamples, SampledVisits
 from fieldhand.forecast.service import work_of
 from fieldhand.forecast.walk_steps import WalkStep, work_in
 from fieldhand.site.model import Place
@@ -149,33 +143,66 @@ class ChargesNeeded:
     rest: Floats
 
 
-def charges_needed(some: Sequence[GuardedStep], rules: RechargeRules) -> ChargesNeeded:
-    """Return the charge that suffices for each stretch. Up to a charge of the plan, what follows it is not counted."""
-    here, from_charger = np.zeros(len(some)), np.zeros(len(some))
-    leg, back, begin = (
-        np.array([getattr(s, name) for s in some]) for name in ("leg_m", "to_charger_m", "from_charger_m")
-    )
-    work = np.array([_percent(s.asked or s.work, rules) for s in some])
+@dataclass(frozen=True, kw_only=True)
+class _Ahead:
+    """What lies ahead of each stretch, shape (stretches,), or (3, stretches) for sums of lengths, squares and cubes.
+
+    Attributes:
+        back_m: Metres from its end to the charger; infinite if there is no way.
+        asked: Charge in percent that the work takes about which the guard was asked.
+        later: Sums of the legs after the stretch.
+        work: Charge in percent that its work and all later work takes.
+    """
+
+    rules: RechargeRules
+    back_m: Floats
+    asked: Floats
+    later: Floats
+    work: Floats
+
+    def suffices(self, first_m: Floats, number: int | slice = slice(None), *, charged: bool = False) -> Floats:
+        """Return the charge that suffices for stretches whose first leg has this length."""
+        rules, back_m = self.rules, self.back_m[number]
+        there = np.where(np.isfinite(back_m), back_m, 0.0)
+        docked = self.asked[number] + np.where(back_m > 0.0, rules.dock_percent, 0.0)
+        to_charger = rules.needed([first_m**n + there**n for n in (1, 2, 3)], docked, charged=charged)
+        rest = self.everything(first_m, number, charged=charged)
+        return np.where(np.isfinite(back_m), np.minimum(to_charger, rest), rest)
+
+    def everything(self, first_m: Floats, number: int | slice = slice(None), *, charged: bool = False) -> Floats:
+        """Return the charge that suffices for everything that is left."""
+        sums = [first_m**n + self.later[n - 1, number] for n in (1, 2, 3)]
+        return self.rules.needed(sums, self.work[number], charged=charged)
+
+
+def _ahead(some: Sequence[GuardedStep], rules: RechargeRules, *, ends: bool) -> _Ahead:
+    """Return what lies ahead of each stretch; without ``ends``, much may follow the last one."""
+    leg, back = (np.array([getattr(s, name) for s in some]) for name in ("leg_m", "to_charger_m"))
     own = np.array([_percent(s.work, rules) for s in some])
     later = np.zeros((3, len(some) + 1))
-    later_work = np.zeros(len(some) + 1)
+    later_work = np.full(len(some) + 1, 0.0 if ends else np.inf)
     for k in range(len(some) - 1, -1, -1):
         # A charge of the plan begins with the way to it, which its own drive has covered.
-        ends = some[k].charges is not None
-        later[:, k] = 0.0 if ends else later[:, k + 1] + [leg[k], leg[k] ** 2, leg[k] ** 3]
-        later_work[k] = 0.0 if ends else later_work[k + 1] + own[k]
-    starts = ((leg, here, False), (np.where(np.isfinite(begin), begin, 0.0), from_charger, True))
-    for first, needed, charged in starts:
-        there = np.where(np.isfinite(back), back, 0.0)
-        docked = work + np.where(back > 0.0, rules.dock_percent, 0.0)
-        to_charger = rules.needed([first**n + there**n for n in (1, 2, 3)], docked, charged=charged)
-        after = [first**n + later[n - 1, 1:] for n in (1, 2, 3)]
-        rest = rules.needed(after, own + later_work[1:], charged=charged)
-        needed[:] = np.where(np.isfinite(back), np.minimum(to_charger, rest), rest)
-    start, known = np.where(np.isfinite(begin), begin, 0.0), np.isfinite(begin)
-    whole = rules.needed([start**n + later[n - 1, 1:] for n in (1, 2, 3)], own + later_work[1:])
+        charges = some[k].charges is not None
+        later[:, k] = 0.0 if charges else later[:, k + 1] + [leg[k], leg[k] ** 2, leg[k] ** 3]
+        later_work[k] = 0.0 if charges else later_work[k + 1] + own[k]
+    asked = np.array([_percent(s.asked or s.work, rules) for s in some])
+    return _Ahead(rules=rules, back_m=back, asked=asked, later=later[:, 1:], work=own + later_work[1:])
+
+
+def charges_needed(some: Sequence[GuardedStep], rules: RechargeRules) -> ChargesNeeded:
+    """Return the charge that suffices for each stretch. Up to a charge of the plan, what follows it is not counted."""
+    return _needed(some, _ahead(some, rules, ends=True))
+
+
+def _needed(some: Sequence[GuardedStep], ahead: _Ahead) -> ChargesNeeded:
+    leg, begin = (np.array([getattr(s, name) for s in some]) for name in ("leg_m", "from_charger_m"))
+    known = np.isfinite(begin)
+    start = np.where(known, begin, 0.0)
     return ChargesNeeded(
-        here=here, from_charger=np.where(known, from_charger, np.inf), rest=np.where(known, whole, np.inf)
+        here=ahead.suffices(leg),
+        from_charger=np.where(known, ahead.suffices(start, charged=True), np.inf),
+        rest=np.where(known, ahead.everything(start), np.inf),
     )
 
 
@@ -184,15 +211,17 @@ def _percent(work: Work, rules: RechargeRules) -> float:
     return rules.robot.percent(0.0, work.seconds, work.joules) + work.metres * rules.per_metre
 
 
-def charged_use(
+def charged_missions(
     steps: Sequence[WalkStep | SampledVisits],
     task: Task,
     rules: RechargeRules,
     drives: Drives,
     samples: MissionSamples,
     charge_percent: float,
-) -> SampledUse:
-    """Return the resources used by missions along a walk, with their charges.
+    *,
+    ends: bool = True,
+) -> ChargingMissions:
+    """Return the missions along a walk, with their charges and the resources they use.
 
     Args:
         steps: Steps of the walk, and the optional visits of each mission.
@@ -201,179 +230,59 @@ def charged_use(
         drives: Drives between places.
         samples: Sampled costs of the legs.
         charge_percent: Charge at the start.
+        ends: True if the walk ends with these steps; otherwise much may follow.
     """
     some = stretches(steps, rules, drives)
-    needed = charges_needed(some, rules)
-    missions, leaving = _ChargingMissions(rules, task, samples, charge_percent), None
+    missions, leaving = ChargingMissions(rules, task, samples.draws, charge_percent), None
+    if not some:
+        return missions
+    ahead = _ahead(some, rules, ends=ends)
+    needed = _needed(some, ahead)
     for number, stretch in enumerate(some):
         if stretch.charges is not None:
             missions.charge_as_planned(stretch.charges)
             continue
         if stretch.visits is not None:
-            later = some[number + 1 :]
-            rest = sum((s.work for s in later), Work(metres=sum(s.leg_m for s in later)))
-            missions.visit(stretch.visits, charge_cycle(rules, task, drives), rest)
-            leaving = stretch.visits.preview.last
+            assert stretch.visits.charged is not None  # noqa: S101  given wherever missions are sampled and recharge
+            missions, leaving = stretch.visits.charged.ended(), stretch.visits
             continue
-        if stretch.asked is None:
-            charging = np.zeros(samples.draws, dtype=bool)
-        else:
-            charging = missions.charge_first(number, needed)
-        back_m, costs = stretch.from_charger_m if charging.any() else 0.0, samples.leg(number)
-        ahead = stretch.leg_m * costs if leaving is None or not stretch.leg_m else leaving
+        goes = np.zeros(samples.draws, dtype=bool)
+        legs_m: Floats = np.full(samples.draws, stretch.leg_m)
+        after_visits = leaving is not None and stretch.leg_m > 0.0
+        if leaving is not None and leaving.charged is not None and after_visits:
+            legs_m = leaving.charged.onward_m
+        if stretch.asked is not None:
+            enough = ahead.suffices(legs_m, number) if after_visits else float(needed.here[number])
+            ends = stretch.step is not None and stretch.step.kind == "exit"
+            must = rules.must_charge(missions.level, enough, ends=ends)
+            goes = _charge_first(missions, rules, samples, number, must, needed)
+        costs = samples.leg(number)
+        way = leaving.preview.last if leaving is not None and after_visits else stretch.leg_m * costs
+        back_m = stretch.from_charger_m if goes.any() else 0.0
         leaving = None if stretch.leg_m else leaving
-        missions.drive(np.where(charging, back_m * costs, ahead))
+        missions.drive(np.where(goes, back_m * costs, way))
         missions.act(stretch.work)
         if stretch.work.metres:
-            missions.drive(np.full(samples.draws, stretch.work.metres))
-        missions.away_m = stretch.from_charger_m
-    return missions.used
+            missions.drive(stretch.work.metres)
+        missions.away_m = np.full(samples.draws, stretch.from_charger_m)
+    return missions
 
 
-class _ChargingMissions:
-    """Many missions at once, each with its own charge.
-
-    Attributes:
-        level: Charge of each in percent.
-        away_m: Metres from their common place to the charger.
-    """
-
-    def __init__(self, rules: RechargeRules, task: Task, samples: MissionSamples, charge_percent: float) -> None:
-        charging = rules.robot.energy.charging
-        assert charging is not None  # noqa: S101  rules exist only for a robot that charges
-        self._rules, self._robot, self._samples, self._charging = rules, rules.robot, samples, charging
-        self._until = charge_target(task.constraints, rules.robot)
-        self._budgets = task.constraints.budgets
-        self._speed = speed_of(task.constraints, rules.robot)
-        self.level, none = np.full(samples.draws, charge_percent), np.zeros(samples.draws)
-        self.away_m = math.inf
-        self._metres, self._seconds, self._joules = none.copy(), none.copy(), none.copy()
-        self._charges, self._ordered, self._docked_s = none.copy(), none.copy(), none.copy()
-        self._lowest = self.level.copy()
-
-    @property
-    def used(self) -> SampledUse:
-        """Return the resources used so far."""
-        return SampledUse(
-            metres=self._metres,
-            seconds=self._seconds,
-            joules=self._joules,
-            charging=SampledCharging(
-                charges=self._charges,
-                docked_s=self._docked_s,
-                left=self.level,
-                lowest=np.minimum(self._lowest, self.level),
-            ),
-        )
-
-    def drive(self, metres: Floats) -> None:
-        """Drive legs of these costs in metres."""
-        self._metres += metres
-        self.level = self.level - self._robot.percent(1.0, 1.0 / self._speed) * metres
-
-    def act(self, work: Work) -> None:
-        """Do work, without the metres driven in it."""
-        self._seconds += work.seconds
-        self._joules += work.joules
-        self.level = self.level - self._robot.percent(0.0, work.seconds, work.joules)
-
-    def charge_first(self, number: int, needed: ChargesNeeded) -> NDArray[np.bool_]:
-        """Send the missions that must charge before the next stretch to the charger; return True for these."""
-        rules, enough = self._rules, float(needed.here[number])
-        possible = bool(needed.from_charger[number] <= rules.until_percent)
-        able = rules.gains(self.level) & possible & (self._ordered < rules.at_most)
-        goes: NDArray[np.bool_] = rules.must_charge(self.level, enough) & able & math.isfinite(self.away_m)
-        if goes.any():
-            self.drive(np.where(goes, self.away_m, 0.0) * self._samples.leg(number, detour=True))
-            self._ordered += goes
-            self._dock(goes, rules.target(float(needed.rest[number]), self.level), None)
-        return goes
-
-    def visit(self, visits: SampledVisits, cycle: ChargeCycle, rest: Work) -> None:
-        """Make each mission's optional visits, charging in between as often as needed, each time from a usual place.
-
-        Missions whose budgets do not allow the last charge leave out the visits that need it.
-
-        Args:
-            visits: The visits of each mission.
-            cycle: A usual charge.
-            rest: Mean of what follows.
-        """
-        rules, charging, robot = self._rules, self._charging, self._robot
-        inside_m, seconds, joules = visits.work
-        metres = inside_m + visits.preview.legs
-        seconds = seconds + metres * visits.slower_s_per_m
-        takes = robot.percent(1.0, 1.0 / self._speed) * metres
-        takes = takes + robot.percent(0.0, 1.0) * seconds + robot.percent(0.0, 0.0, 1.0) * joules
-        above = self.level - cycle.floor_percent
-        missing = np.maximum(takes - above, 0.0)
-        times = np.minimum(np.ceil(missing / cycle.net_percent), rules.at_most - self._ordered)
-        short = self._exceeds(
-            metres + times * cycle.detour_m, seconds + times * cycle.charge_s, takes, cycle, times, rest
-        )
-        times = np.where(short & (times > 0), times - 1.0, times)
-        gained = np.maximum(above + times * cycle.net_percent, 0.0)
-        part = np.where(short, np.minimum(1.0, gained / np.maximum(takes, 1e-9)), 1.0)
-        self._metres += part * metres + times * cycle.detour_m
-        self._seconds += part * seconds + times * (charging.around_s + cycle.charge_s)
-        self._joules += part * joules + times * charging.around_j
-        self._docked_s += times * cycle.charge_s
-        self._ordered += times
-        self._charges += times
-        self.level = self.level - part * takes + times * cycle.net_percent
-        self.away_m = cycle.detour_m / 2.0
-
-    def _exceeds(
-        self, metres: Floats, seconds: Floats, takes: Floats, cycle: ChargeCycle, times: Floats, rest: Work
-    ) -> NDArray[np.bool_]:
-        """Return True for the missions that would exceed a budget by their visits, charges and the mean of the rest."""
-        robot, speed = self._robot, self._speed
-        driven = self._metres + metres + rest.metres
-        spent_s = self._seconds + seconds + times * self._charging.around_s + rest.seconds + driven / speed
-        rest_percent = robot.percent(rest.metres, rest.seconds + rest.metres / speed, rest.joules)
-        used = {
-            "distance_m": driven,
-            "duration_s": spent_s,
-            "energy_percent": self._used_percent + takes + times * cycle.percent + rest_percent,
-        }
-        exceeded = np.zeros(len(metres), dtype=bool)
-        for budget in self._budgets:
-            exceeded |= used[budget.kind] > budget.limit
-        return exceeded
-
-    @property
-    def _used_percent(self) -> Floats:
-        robot = self._robot
-        seconds = self._metres / self._speed + self._seconds - self._docked_s
-        return (
-            robot.percent(1.0, 0.0) * self._metres
-            + robot.percent(0.0, 1.0) * seconds
-            + robot.percent(0.0, 0.0, 1.0) * self._joules
-        )
-
-    def charge_as_planned(self, node: Recharge) -> None:
-        """Charge all missions at their place, as the plan says."""
-        until = self._until if node.until_percent is None else node.until_percent
-        if node.duration_s is not None and node.until_percent is None:
-            until = 100.0
-        self._dock(np.ones(len(self.level), dtype=bool), np.full(len(self.level), until), node.duration_s)
-
-    def _dock(self, docks: NDArray[np.bool_], until: Floats, most_s: float | None) -> None:
-        charging, capacity_j = self._charging, self._robot.energy.capacity_j
-        self._lowest = np.where(docks, np.minimum(self._lowest, self.level), self._lowest)
-        before = self._maneuver(docks, charging.dock.duration_s, charging.dock.energy_j)
-        full_s = charging.seconds(before, until, capacity_j)
-        seconds = full_s if most_s is None else np.minimum(most_s, full_s)
-        seconds = np.where(docks, seconds, 0.0)
-        self.level = np.where(docks, charging.percent_after(before, seconds, capacity_j), self.level)
-        self._seconds += seconds
-        self._docked_s += seconds
-        self._charges += docks
-        if charging.undock is not None:
-            self._maneuver(docks, charging.undock.duration_s, charging.undock.energy_j)
-
-    def _maneuver(self, docks: NDArray[np.bool_], seconds: float, joules: float) -> Floats:
-        self._seconds += np.where(docks, seconds, 0.0)
-        self._joules += np.where(docks, joules, 0.0)
-        self.level = self.level - np.where(docks, self._robot.percent(0.0, seconds, joules), 0.0)
-        return self.level
+def _charge_first(
+    missions: ChargingMissions,
+    rules: RechargeRules,
+    samples: MissionSamples,
+    number: int,
+    must: NDArray[np.bool_],
+    needed: ChargesNeeded,
+) -> NDArray[np.bool_]:
+    """Send the missions that must charge before a stretch to the charger if they can; return True for these."""
+    possible = bool(needed.from_charger[number] <= rules.until_percent)
+    able = rules.gains(missions.level) & possible & (missions.ordered < rules.at_most)
+    goes: NDArray[np.bool_] = must & able & np.isfinite(missions.away_m)
+    if goes.any():
+        some = np.flatnonzero(goes)
+        missions.drive((missions.away_m * samples.leg(number, detour=True))[some], some)
+        missions.ordered[some] += 1.0
+        missions.dock(some, rules.target(float(needed.rest[number]), missions.level[some]))
+    return goes

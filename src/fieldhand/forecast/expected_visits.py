@@ -3,28 +3,35 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fieldhand.errors import DriveFault
 from fieldhand.forecast.candidates import cheapest
+from fieldhand.forecast.charged_visits import ChargedVisits
 from fieldhand.forecast.mission_state import Spent, Visit, Work
 from fieldhand.forecast.orienteering_problem import GONE, left_before, policy_for, visits_problem
-from fieldhand.forecast.recharge_rules import mission_limits
+from fieldhand.forecast.recharge_rules import mission_limits, recharge_rules
 from fieldhand.forecast.remaining_work import RemainingWork, optional_runs, remaining_work_after, whole_mission_work
+from fieldhand.forecast.resource_limits import ResourceLimit, resource_limits
 from fieldhand.forecast.risk_allowance import RiskAllowance
 from fieldhand.forecast.route_cost import RouteCost, cost_model, overrun_chances, route_cost
 from fieldhand.forecast.sampled_costs import DRAWS
-from fieldhand.forecast.visit_distances import visit_distances
+from fieldhand.forecast.visit_distances import MAX_DOUBLE, visit_distances
 from fieldhand.forecast.walk_steps import VisitForecast
 from fieldhand.site.model import Place
+from fieldhand.task.build import exit_of
 from fieldhand.task.plan import ForEach, OptionalStep, WorkAlong
 
 if TYPE_CHECKING:
     from fieldhand.forecast.request_handler import ForecastHandler
     from fieldhand.orienteering.preview import Preview
+    from fieldhand.orienteering.problem import Problem
 
 Floats = NDArray[np.float64]
 
@@ -41,6 +48,7 @@ class ExpectedVisits:
         ids: Ids of the candidate places; the preview's vertex ``v`` has index ``v - 1``.
         works: Work at each candidate place.
         allowance: Probability of running short that later optional visits may still add.
+        charged: The simulated missions with their charges; None if they do not recharge.
     """
 
     places: tuple[Place, ...]
@@ -50,6 +58,7 @@ class ExpectedVisits:
     ids: tuple[str, ...]
     works: tuple[Work, ...]
     allowance: RiskAllowance
+    charged: ChargedVisits | None = None
 
 
 def expected_visits(
@@ -74,13 +83,14 @@ def expected_visits(
     without, share, allowance = _share(walker, rest)
     samples = walker.samples
     used = np.zeros(DRAWS) if samples is None else samples.metres - walker.spent.metres
+    charged = _charged(walker, visits, rest)
     if len(visits) == 1:
-        found = _one(walker, visits[0], rest, share, used, rng)
+        found = _one(walker, visits[0], rest, share, used, rng, charged)
     else:
         ahead = [] if before is None else [before.ids[v - 1] for v in before.preview.orders[0].tolist()]
         number = {v.place.id: k for k, v in enumerate(visits, start=1)}
         warm = [number[i] for i in ahead if i in number]
-        found = _several(walker, node, visits, rest, without + share, used, rng, warm)
+        found = _several(walker, node, visits, rest, without + share, used, rng, warm, charged)
     chances = np.zeros(len(visits))
     chances[found.vertices - 1] = found.visited.mean(axis=0)
     mean = float(found.visits.mean())
@@ -103,6 +113,34 @@ def expected_visits(
         ids=tuple(v.place.id for v in visits),
         works=tuple(v.work for v in visits),
         allowance=allowance,
+        charged=charged,
+    )
+
+
+def _charged(walker: ForecastHandler, visits: Sequence[Visit], rest: RemainingWork) -> ChargedVisits | None:
+    """Return the sampled missions at the visits, if they recharge."""
+    missions, task, robot = walker.charged(), walker.task, walker.robot
+    rules = None if missions is None else recharge_rules(task, walker.site, robot)
+    if missions is None or rules is None:
+        return None
+    then = exit_of(task, "low_budget")
+    return ChargedVisits(
+        missions,
+        rules,
+        here=walker.context.here,
+        visits=visits,
+        rest=rest,
+        limits=_limits(walker),
+        budgets=resource_limits(task.constraints, robot)[:-1],
+        length=partial(_length, walker),
+        home=partial(walker.site.home, then),
+        slower_s_per_m=walker.choosing_slower_s_per_m,
+    )
+
+
+def _limits(walker: ForecastHandler) -> tuple[ResourceLimit, ...]:
+    return mission_limits(
+        walker.task, walker.site, walker.robot, walker.drives, walker.charge_percent, pace_m_s=walker.choosing_pace_m_s
     )
 
 
@@ -126,32 +164,43 @@ def _several(
     used: Floats,
     rng: np.random.Generator,
     warm: Sequence[int],
+    charged: ChargedVisits | None,
 ) -> Preview:
     """Simulate missions that choose among several visits."""
     from fieldhand.orienteering.policy import State
     from fieldhand.orienteering.preview import preview
 
     robot = walker.robot
-    resources = mission_limits(
-        walker.task, walker.site, robot, walker.drives, walker.charge_percent, pace_m_s=walker.choosing_pace_m_s
-    )
-    problem = visits_problem(
-        legs=visit_distances(walker.context.here, visits, rest, walker.drives),
-        rewards=[v.reward for v in visits],
-        service=[v.work for v in visits],
-        rest=rest,
-        resources=resources,
-        robot=robot,
-        spent=walker.spent,
-        accepted=accepted,
-        max_visits=node.at_most,
-    )
+    resources = _limits(walker)
+
+    def problem_from(here: Place) -> Problem:
+        return visits_problem(
+            legs=visit_distances(here, visits, rest, walker.drives),
+            rewards=[v.reward for v in visits],
+            service=[v.work for v in visits],
+            rest=rest,
+            resources=resources,
+            robot=robot,
+            spent=walker.spent,
+            accepted=accepted,
+            max_visits=node.at_most,
+        )
+
+    if charged is not None and len(visits) <= MAX_DOUBLE:
+        with suppress(DriveFault):  # no way leads from the charger to some of them
+            charged.policy = policy_for(problem_from(charged.charger), warm=warm)
     state = State(vertex=0, left=left_before(resources, robot, walker.spent, rest))
-    return preview(policy_for(problem, warm=warm), state, rng, used)
+    return preview(policy_for(problem_from(walker.context.here), warm=warm), state, rng, used, charged)
 
 
 def _one(
-    walker: ForecastHandler, visit: Visit, rest: RemainingWork, share: float, used: Floats, rng: np.random.Generator
+    walker: ForecastHandler,
+    visit: Visit,
+    rest: RemainingWork,
+    share: float,
+    used: Floats,
+    rng: np.random.Generator,
+    charged: ChargedVisits | None,
 ) -> Preview:
     """Simulate missions with a single optional visit, which is made if it adds no more than its share."""
     from fieldhand.orienteering.preview import Preview
@@ -159,19 +208,25 @@ def _one(
     here, costs = walker.context.here, cost_model(walker.robot)
     there = _length(walker, here, visit.place)
     back, home = (0.0 if rest.first is None else _length(walker, at, rest.first) for at in (visit.end, here))
-    resources = mission_limits(
-        walker.task, walker.site, walker.robot, walker.drives, walker.charge_percent, pace_m_s=walker.choosing_pace_m_s
-    )
+    resources = _limits(walker)
     with_it, without = (
         overrun_chances(way + rest.way, resources, walker.robot, walker.spent, used)
         for way in (route_cost([there, back], visit.work), route_cost([home]))
     )
     fits = (with_it - without <= share * (1 + 1e-9) + 1e-12) & (with_it < GONE)
     goes = np.asarray(fits.all(axis=0)) & (visit.reward > 0.0)
+    legs_m = np.full(len(used), there)
+    if charged is not None:
+        some = np.flatnonzero(goes)
+        departs = charged.set_out(some, 1, legs_m[some], rng)
+        goes[some], legs_m[some] = departs.makes, departs.legs
+    legs = np.where(goes, legs_m * costs.draw(rng, len(used)), 0.0)
+    if charged is not None:
+        charged.arrive(np.flatnonzero(goes), 1, legs[goes])
     return Preview(
         vertices=np.ones(1, dtype=np.int64),
         visited=goes[:, None],
-        legs=np.where(goes, there * costs.draw(rng, len(used)), 0.0),
+        legs=legs,
         last=np.where(goes, back, home) * costs.draw(rng, len(used)),
         groups=np.zeros(len(used), dtype=np.int64),
         orders=(np.ones(1, dtype=np.int64),),

@@ -68,6 +68,7 @@ class Visit:
             included in ``service_s`` and ``service_j``.
         leaves: Place where the visit ends; None if it is ``place``.
         pace_m_s: Speed limit of the drive to it in m/s; infinite without one.
+        ends: True for the way home after everything else.
     """
 
     place: Place
@@ -77,6 +78,7 @@ class Visit:
     inside_m: float = 0.0
     leaves: Place | None = None
     pace_m_s: float = math.inf
+    ends: bool = False
 
     @property
     def work(self) -> Work:

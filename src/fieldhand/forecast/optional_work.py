@@ -80,7 +80,7 @@ class LikelyOptionalWork:
         walker.allowance = found.allowance
         step = WalkStep(node=node, kind="visit-list", context=walker.context, shed=(*found.shed, *closed))
         walker.note(replace(step, places=found.places, visit_forecast=found.visit_forecast))
-        walker.sample_visits(found.preview, found.works)
+        walker.sample_visits(found.preview, found.works, found.charged)
         return found.places
 
 

@@ -109,15 +109,24 @@ class RechargeRules:
             work_percent: Charge that the work along the route takes.
             charged: True to allow the probability that is tolerated from a charged battery.
         """
+        metres = self.longest(sums, self.tolerated if charged else self.accepted)
+        found: Floats = self.reserve_percent + metres * self.per_metre + np.asarray(work_percent, dtype=np.float64)
+        return found
+
+    def longest(self, sums: Sequence[ArrayLike], chance: float) -> Floats:
+        """Return the metres that the cost of a route exceeds with a given probability, elementwise.
+
+        Args:
+            sums: Sums of the leg lengths in metres, of their squares and of their cubes.
+            chance: The probability.
+        """
         first, squares, cubes = (np.asarray(s, dtype=np.float64) for s in sums)
         second, third = cost_model(self.robot).cumulants()
         variance = second * squares
         skewness = np.divide(
             third * cubes, variance**1.5, out=np.zeros_like(variance), where=np.asarray(variance > 0.0)
         )
-        table = _quantiles(self.tolerated if charged else self.accepted)
-        metres = first + np.sqrt(variance) * np.interp(skewness, _SKEWNESS, table)
-        found: Floats = self.reserve_percent + metres * self.per_metre + np.asarray(work_percent, dtype=np.float64)
+        found: Floats = first + np.sqrt(variance) * np.interp(skewness, _SKEWNESS, _quantiles(chance))
         return found
 
     def needed_for(self, way: RouteCost, *, charged: bool = False, docks: bool = False) -> float:
@@ -125,15 +134,19 @@ class RechargeRules:
         work = self.robot.percent(0.0, way.work.seconds, way.work.joules) + way.work.metres * self.per_metre
         return float(self.needed(way.sums, work + docks * self.dock_percent, charged=charged))
 
-    def must_charge(self, charge_percent: ArrayLike, enough_percent: ArrayLike) -> NDArray[np.bool_]:
+    def must_charge(
+        self, charge_percent: ArrayLike, enough_percent: ArrayLike, *, ends: bool = False
+    ) -> NDArray[np.bool_]:
         """Return True where the battery must be charged before a visit, if it can be.
 
         Args:
             charge_percent: Charge now.
             enough_percent: Charge that suffices, by :meth:`needed`.
+            ends: True before the way home, for which it is not charged unless needed.
         """
         charge = np.asarray(charge_percent)
-        return (charge < np.asarray(enough_percent) - 1e-9) | (charge < self.below_percent)
+        wished = -math.inf if ends else self.below_percent
+        return (charge < np.asarray(enough_percent) - 1e-9) | (charge < wished)
 
     def target(self, rest_percent: float, charge_percent: ArrayLike) -> Floats:
         """Return up to what percent to charge: the wanted charge or, if the Task leaves it open, what the rest takes.

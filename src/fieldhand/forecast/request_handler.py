@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 from fieldhand.errors import NoPlaceError, PlaceError, TaskError
 from fieldhand.forecast import visit_order
-from fieldhand.forecast.charge_simulation import charged_use
+from fieldhand.forecast.charge_simulation import charged_missions
+from fieldhand.forecast.charging_missions import ChargingMissions
 from fieldhand.forecast.mission_state import Visit, Work
 from fieldhand.forecast.possible_answers import BranchReadings
 from fieldhand.forecast.recharge_rules import recharge_rules
@@ -164,10 +165,21 @@ class ForecastHandler(WalkState):
         """Return the resources used by the sampled missions, with their charges."""
         if self.samples is None:
             return None
+        missions = self.charged(ends=True)
+        return self.samples.used if missions is None else missions.used
+
+    def charged(self, *, ends: bool = False) -> ChargingMissions | None:
+        """Return the sampled missions so far with their charges; None if none are sampled, or they do not recharge.
+
+        Args:
+            ends: True if they end here.
+        """
         rules = recharge_rules(self.task, self.site, self.robot)
-        if rules is None:
-            return self.samples.used
-        return charged_use(self.sampled, self.task, rules, self.drives, self.samples, self.charge_percent)
+        if rules is None or self.samples is None:
+            return None
+        return charged_missions(
+            self.sampled, self.task, rules, self.drives, self.samples, self.charge_percent, ends=ends
+        )
 
     def along(self, node: Node) -> tuple[WalkStep, ...]:
         """Return the steps of one node without an exit, up to the first place that cannot be resolved from here.

@@ -12,6 +12,7 @@ from fieldhand.forecast.mission_state import Work
 from fieldhand.orienteering.costs import CostModel
 
 if TYPE_CHECKING:
+    from fieldhand.forecast.charged_visits import ChargedVisits
     from fieldhand.orienteering.preview import Preview
 
 Floats = NDArray[np.float64]
@@ -63,11 +64,13 @@ class SampledVisits:
 
     Attributes:
         slower_s_per_m: Seconds per metre that the drives take beyond those of the mission's speed.
+        charged: The missions after their visits, with what they charged in between; None if they do not recharge.
     """
 
     preview: Preview
     works: tuple[Work, ...]
     slower_s_per_m: float = 0.0
+    charged: ChargedVisits | None = None
 
     @property
     def work(self) -> tuple[Floats, Floats, Floats]:

@@ -26,6 +26,7 @@ from fieldhand.task.plan import Act, Node, WorkAlong
 from fieldhand.task.run import PlanRun
 
 if TYPE_CHECKING:
+    from fieldhand.forecast.charged_visits import ChargedVisits
     from fieldhand.orienteering.preview import Preview
     from fieldhand.site.drives import Drives
     from fieldhand.site.working.stretch import Stretch
@@ -197,6 +198,11 @@ class WalkState:
         return min(self.plan.pace_m_s, self._slow.slowest_m_s)
 
     @property
+    def choosing_slower_s_per_m(self) -> float:
+        """Return the seconds per metre that this speed adds to that of the mission."""
+        return slower_s_per_m(self.task.constraints, self.robot, self.choosing_pace_m_s)
+
+    @property
     def _stuck(self) -> bool:
         return self._standing is not self.context.here
 
@@ -262,11 +268,11 @@ class WalkState:
         if self.readings is not None:
             self.readings.collect(reading, 0)
 
-    def sample_visits(self, preview: Preview, works: Sequence[Work]) -> None:
+    def sample_visits(self, preview: Preview, works: Sequence[Work], charged: ChargedVisits | None) -> None:
         """Add the optional visits of each sampled mission."""
         if self.samples is not None:
-            slower = slower_s_per_m(self.task.constraints, self.robot, self.choosing_pace_m_s)
-            visits = SampledVisits(preview=preview, works=tuple(works), slower_s_per_m=slower)
+            slower = self.choosing_slower_s_per_m
+            visits = SampledVisits(preview=preview, works=tuple(works), slower_s_per_m=slower, charged=charged)
             self.samples.visit(visits)
             self.sampled.append(visits)
 

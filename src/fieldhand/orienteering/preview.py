@@ -7,8 +7,8 @@ cannot afford according to the dynamic programme.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,45 @@ _DEPTH = SearchEffort(rounds=20 * _STRIDE, insertions=8, remakes=8)
 #: A group is split if the standard deviation of its amounts left exceeds the first value as a fraction of their mean,
 #: unless it would fall below the second value as a fraction of all missions.
 _SPREAD, _SMALLEST = 0.05, 1 / 8
+#: Number that stands for the place of a detour where others are numbers of vertices.
+_DETOUR = -1
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Departures:
+    """Decisions of missions about a visit.
+
+    Attributes:
+        makes: True for those that make it now.
+        waits: True for those that went on a detour first, and are at its place.
+        legs: Lengths of the last leg to the visit.
+    """
+
+    makes: NDArray[np.bool_]
+    waits: NDArray[np.bool_]
+    legs: Floats
+
+
+class Detours(Protocol):
+    """A place to which missions drive between visits when they must, such as a charger, and what that costs.
+
+    Attributes:
+        policy: Policy of the missions at that place, which is its vertex 0; None if they drive on to the next visit.
+    """
+
+    policy: Policy | None
+
+    def left(self, some: Ints) -> Floats:
+        """Return what is left of each limit for some missions, shape (missions, limits)."""
+
+    def length(self, stop: int) -> float:
+        """Return the length of the leg from the place to a stop."""
+
+    def set_out(self, some: Ints, stop: int, legs: Floats, rng: np.random.Generator) -> Departures:
+        """Decide on the visit to a stop; ``legs`` are the lengths from where each mission is."""
+
+    def arrive(self, some: Ints, stop: int, costs: Floats) -> None:
+        """Visit a stop at these costs of the last leg."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -63,7 +102,9 @@ class Preview:
         return tuple(v for v in self.orders[self.groups[mission]].tolist() if v in made)
 
 
-def preview(policy: Policy, state: State, rng: np.random.Generator, used: Floats) -> Preview:
+def preview(
+    policy: Policy, state: State, rng: np.random.Generator, used: Floats, detours: Detours | None = None
+) -> Preview:
     """Simulate the missions of a policy from a given state.
 
     Args:
@@ -72,12 +113,15 @@ def preview(policy: Policy, state: State, rng: np.random.Generator, used: Floats
         rng: Random generator of the leg costs.
         used: Amount that each mission has used in excess of that state, shape (missions,); negative if it has used
             less.
+        detours: What missions do besides; it then determines the amounts left.
     """
-    missions = _SampledMissions(policy, state, used)
+    missions = _SampledMissions(policy, state, used, detours)
     fewest = max(1, int(len(used) * _SMALLEST))
     waiting = [_Group(policy=policy, vertex=state.vertex, stops=(), members=np.arange(len(used)))]
-    while waiting:
-        group = waiting.pop()
+    while waiting or missions.wait:
+        group = waiting.pop() if waiting else missions.together(rng)
+        if not len(group.members):
+            continue
         left = missions.left[group.members]
         amounts = np.median(left, axis=0)
         binding = left[:, int(amounts.argmin())]
@@ -85,12 +129,12 @@ def preview(policy: Policy, state: State, rng: np.random.Generator, used: Floats
         if wide and group.warm and len(group.members) >= 2 * fewest:
             waiting += group.divided(binding, rng)
             continue
-        collected, partly = missions.collected(group.members)
+        collected, others = missions.collected(group)
         now = State(
             vertex=group.vertex,
             left=tuple(amounts.tolist()),
             visited=state.visited | collected,
-            given_up=state.given_up | partly,
+            given_up=state.given_up | others,
         )
         group.policy.next(now)
         ahead = np.array(group.policy.expectation.vertices[1:-1], dtype=np.int64)
@@ -117,6 +161,7 @@ class _Group:
         stops: Stops visited so far.
         members: Indices of the missions.
         warm: Stops of the current plan; empty before the first plan.
+        mixed: True if its missions come from several groups, and differ in their visits.
     """
 
     policy: Policy
@@ -124,6 +169,7 @@ class _Group:
     stops: tuple[int, ...]
     members: Ints
     warm: tuple[int, ...] = ()
+    mixed: bool = False
 
     def divided(self, left: Floats, rng: np.random.Generator) -> list[_Group]:
         """Split the group into missions with less and with more left, each to be planned separately."""
@@ -135,6 +181,7 @@ class _Group:
                 stops=self.stops,
                 members=np.sort(self.members[part]),
                 warm=self.warm,
+                mixed=self.mixed,
             )
             for part in (order[:half], order[half:])
         ]
@@ -143,13 +190,19 @@ class _Group:
 class _SampledMissions:
     """Missions under way."""
 
-    def __init__(self, policy: Policy, state: State, used: Floats) -> None:
-        self._prepared, count = policy.prepared, len(used)
+    def __init__(self, policy: Policy, state: State, used: Floats, detours: Detours | None) -> None:
+        self._prepared, self._detours, count = policy.prepared, detours, len(used)
         self._at = np.full(count, state.vertex, dtype=np.int64)
-        self.left = np.asarray(state.left)[None, :] - used[:, None]
+        if detours is None:
+            self.left: Floats = np.asarray(state.left)[None, :] - used[:, None]
+        else:
+            self.left = detours.left(np.arange(count))
         self._legs = np.zeros(count)
         self._visited = np.zeros((count, self._prepared.size), dtype=bool)
         self._ended: list[tuple[Ints, tuple[int, ...]]] = []
+        self._waits = np.zeros(count, dtype=bool)
+        self._refused = np.zeros_like(self._visited)
+        self._left_behind: list[tuple[int, _Group]] = []
 
     @property
     def is_uncertain(self) -> bool:
@@ -162,6 +215,8 @@ class _SampledMissions:
             self._go(group.members, int(stop), rng)
             group.vertex = int(stop)
         group.stops = (*group.stops, *stops.tolist())
+        self._leave_behind(group, stops)
+        group.members = group.members[~self._waits[group.members]]
 
     def skip(
         self,
@@ -184,7 +239,7 @@ class _SampledMissions:
 
         def drive(going: NDArray[np.bool_], until: int) -> None:
             for i in range(min(last, until)):
-                here = np.flatnonzero(going & (position == i))
+                here = np.flatnonzero(going & (position == i) & ~self._waits[members])
                 if not len(here):
                     continue
                 left = self.left[members[here], search.binding]
@@ -196,20 +251,24 @@ class _SampledMissions:
 
         anew = len(order.stops) > _STRIDE + _FEW and self.is_uncertain
         drive(np.ones(len(members), dtype=bool), _STRIDE if anew else last)
-        numbers, counts = np.unique(position, return_counts=True)
+        numbers, counts = np.unique(position[~self._waits[members]], return_counts=True)
         together = [p for p, n in zip(numbers.tolist(), counts.tolist(), strict=True) if n >= fewest and p < last]
         alone = ~np.isin(position, together)
         drive(alone, last)
-        self.end(members[alone], (*group.stops, *order.stops.tolist()))
+        group.stops, before = (*group.stops, *order.stops.tolist()), group.stops
+        self._leave_behind(group, order.stops)
+        waits = self._waits[members]
+        self.end(members[alone & ~waits], group.stops)
         return [
             _Group(
                 policy=group.policy.again(
                     int(rng.integers(2**31)), group.policy.price, order.stops[p:].tolist(), _DEPTH
                 ),
                 vertex=int(order.stops[p - 1]),
-                stops=(*group.stops, *order.stops[:p].tolist()),
-                members=members[position == p],
+                stops=(*before, *order.stops[:p].tolist()),
+                members=members[(position == p) & ~waits],
                 warm=tuple(order.stops[p:].tolist()),
+                mixed=group.mixed,
             )
             for p in together
         ]
@@ -217,12 +276,41 @@ class _SampledMissions:
     def end(self, members: Ints, stops: tuple[int, ...]) -> None:
         """End the visits of missions that followed ``stops``."""
         if len(members):
-            self._ended.append((members, stops))
+            self._ended.append((members, tuple(dict.fromkeys(stops))))
 
-    def collected(self, members: Ints) -> tuple[frozenset[int], frozenset[int]]:
-        """Return the vertices that at least half of the given missions have visited, and those that fewer have."""
-        part = self._visited[members].mean(axis=0)
-        return tuple(frozenset(np.flatnonzero(x).tolist()) for x in (part >= 0.5, (part > 0.0) & (part < 0.5)))  # type: ignore[return-value]
+    @property
+    def wait(self) -> bool:
+        """Return True if missions wait at the place of their detour."""
+        return bool(self._left_behind)
+
+    def together(self, rng: np.random.Generator) -> _Group:
+        """Return the missions at the place of their detour as one group, which is to be planned anew from there."""
+        assert self._detours is not None and self._detours.policy is not None  # noqa: S101, PT018  they wait there
+        waits = np.flatnonzero(self._waits)
+        self._waits[:] = False
+        self._left_behind.sort(key=lambda one: -one[0])
+        _, largest = self._left_behind[0]
+        visited = self._visited[waits].mean(axis=0)
+        warm = tuple(v for v in dict.fromkeys(largest.warm) if visited[v] < 0.5)
+        stops = tuple(dict.fromkeys(v for _, group in self._left_behind for v in group.stops))
+        self._left_behind.clear()
+        policy = self._detours.policy.again(int(rng.integers(2**31)), largest.policy.price, warm, _DEPTH)
+        return _Group(policy=policy, vertex=0, stops=stops, members=waits, warm=warm, mixed=True)
+
+    def _leave_behind(self, group: _Group, ahead: Ints) -> None:
+        """Note how many missions of a group wait, and what it visits."""
+        count = int(self._waits[group.members].sum())
+        if count:
+            self._left_behind.append((count, replace(group, warm=(*ahead.tolist(), *group.warm))))
+
+    def collected(self, group: _Group) -> tuple[frozenset[int], frozenset[int]]:
+        """Return the vertices that at least half of a group has visited, and those that it will not visit any more.
+
+        The latter are those that fewer have visited, or that half of them have left out.
+        """
+        part, refused = self._visited[group.members].mean(axis=0), self._refused[group.members].mean(axis=0)
+        others = (part < 0.5) & ((refused >= 0.5) | (part > 0.0) & (not group.mixed))
+        return tuple(frozenset(np.flatnonzero(x).tolist()) for x in (part >= 0.5, others))  # type: ignore[return-value]
 
     def made(self, rng: np.random.Generator) -> Preview:
         """Return the simulated missions, including the leg to the end."""
@@ -247,15 +335,47 @@ class _SampledMissions:
         )
 
     def _go(self, some: Ints, stop: int, rng: np.random.Generator) -> None:
-        prepared = self._prepared
-        cost = self._lengths(stop, self._at[some]) * prepared.problem.model.draw(rng, len(some))
+        prepared, detours = self._prepared, self._detours
+        if detours is not None:
+            may = self._may_visit(some, stop)
+            self._refused[some[~may], stop] = True
+            some = some[may]
+        legs = self._lengths(stop, self._at[some])
+        if detours is not None:
+            departs = detours.set_out(some, stop, legs, rng)
+            waits = some[departs.waits]
+            self._at[waits], self._waits[waits] = _DETOUR, True
+            self.left[waits] = detours.left(waits)
+            self._refused[some[~(departs.makes | departs.waits)], stop] = True
+            some, legs = some[departs.makes], departs.legs[departs.makes]
+        cost = legs * prepared.problem.model.draw(rng, len(some))
         self._legs[some] += cost
-        self.left[some] -= cost[:, None] + prepared.service[:, stop]
+        if detours is None:
+            self.left[some] -= cost[:, None] + prepared.service[:, stop]
+        else:
+            detours.arrive(some, stop, cost)
+            self.left[some] = detours.left(some)
         self._at[some] = stop
         self._visited[some, stop] = True
 
+    def _may_visit(self, some: Ints, stop: int) -> NDArray[np.bool_]:
+        """Return True for missions that have not made a visit, and may: those of a mixed group differ."""
+        may: NDArray[np.bool_] = ~self._visited[some, stop]
+        most = self._prepared.problem.max_visits
+        if most is not None:
+            may &= self._visited[some].sum(axis=1) < most
+        return may
+
     def _lengths(self, to: int, vertices: Ints) -> Floats:
-        """Return the lengths from vertices to a node."""
+        """Return the lengths from vertices, or the place of the detour, to a node."""
+        away = vertices == _DETOUR
+        if self._detours is not None and away.any():
+            found = np.full(len(vertices), self._detours.length(to))
+            found[~away] = self._between(to, vertices[~away])
+            return found
+        return self._between(to, vertices)
+
+    def _between(self, to: int, vertices: Ints) -> Floats:
         prepared = self._prepared
         if len(prepared.lengths.matrix):
             return np.asarray(prepared.lengths.matrix[vertices, to])

@@ -37,6 +37,14 @@ def say_earlier(task: Task, site: Site) -> tuple[str, ...]:
                 task.earlier.elsewhere,
             )
         )
+    if task.earlier.simulations:
+        more.append(
+            counted(
+                "{count} simulated mission does not count (--count-simulated).",
+                "{count} simulated missions do not count (--count-simulated).",
+                task.earlier.simulations,
+            )
+        )
     if isinstance(task.timing, Schedule):
         more.append(message("Each run counts anew, with the missions that the robot itself did before it."))
     return (*counts, say_known(task.earlier), *more)

@@ -252,6 +252,43 @@ PLANNED = [
     ),
     (PASTURE, AMIGA, "soil moisture at the gates", "for UnionOf(GateIs(middle gate)+GateIs(farm gate)): [moisture]"),
     (PASTURE, TRACTOR, "mow the pasture", "mow area InZone(long pasture)"),
+    (
+        GARDEN,
+        AMIGA,
+        "go to the beans and photograph every second one",
+        "for EveryNth(2, of Where(crop, eq, bean)): [picture]",
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        "a leaf of the shortest bean and one of the tallest",
+        "for UnionOf(Top(height_cm, 1, True, of Where(crop, eq, bean))+Top(height_cm, 1, of Where(crop, eq, bean))): "
+        "[sample_leaf]",
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        "soil moisture in the rose bed and in the manure heap",
+        "for UnionOf(PointsIn(rose bed)+PointsIn(manure heap)): [moisture]",
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        "photograph the two biggest potatoes",
+        "for Top(height_cm, 2, of Where(crop, eq, potato)): [picture]",
+    ),
+    (
+        GLASSHOUSE,
+        AMIGA,
+        "photograph two staked and two unstaked plants",
+        "for UnionOf(Take(2, of Where(staked, eq, True))+Take(2, of Where(staked, eq, False))): [picture]",
+    ),
+    (
+        GLASSHOUSE,
+        AMIGA,
+        "measure the soil moisture at all melons. Photograph those with a moisture above 30.",
+        "for Where(crop, eq, melon): [moisture = r1; if r1 > 30 percent: [picture]]",
+    ),
 ]
 
 #: Requests with the number of their readings; 0 for an open question.
@@ -264,6 +301,8 @@ ASKED = [
     (PASTURE, AMIGA, "soil moisture at random spots on the bank", 0),
     (PASTURE, TRACTOR, "mow the half nearest the farm gate", 3),
     (PASTURE, TRACTOR, "mow the bank and use the gate", 2),
+    (GARDEN, AMIGA, "six soil moisture readings in the rose bed and in the manure heap", 0),
+    (GLASSHOUSE, AMIGA, "at each melon, take a leaf if the moisture is under 25 percent", 0),
 ]
 
 REFUSED = [

@@ -150,7 +150,9 @@ def wishes(words: Sequence[Word], lexicon: Lexicon) -> list[Wish]:
     """Return all wishes, but for those that the robot or the site has a word for ("mow" on a robot that mows)."""
     own = _own_phrases(lexicon)
     attributes = frozenset(phrase for phrase, entry in lexicon.own.items() if entry.kind == "ATTR")
-    return _longest([wish for wish in _found(words, wish_kinds()) if not _is_own(wish, words, own, attributes)])
+    names = list(_named(words, own))
+    found = [wish for wish in _found(words, wish_kinds()) if not _is_own(wish, words, own, attributes)]
+    return _longest([w for w in found if w.kind.early or not any(a <= w.first and w.last <= b for a, b in names)])
 
 
 def _is_past(word: Word) -> bool:
@@ -181,6 +183,16 @@ def _own_phrases(lexicon: Lexicon) -> frozenset[Phrase]:
     gates, zones = (gate.place.id for gate in site.gates), (zone.name for zone in site.zones)
     names = {split(name) for name in (*gates, *zones, *markers)}
     return frozenset(phrase for phrase in {*lexicon.own, *names} if phrase)
+
+
+def _named(words: Sequence[Word], own: frozenset[Phrase]) -> Iterator[tuple[int, int]]:
+    """Yield the ranges of names of several words: "weather mast", which asks for no weather."""
+    norms = [word.norm for word in words]
+    longest = max(map(len, own), default=0)
+    for first in range(len(norms)):
+        for last in range(first + 2, min(first + longest, len(norms)) + 1):
+            if tuple(norms[first:last]) in own:
+                yield first, last
 
 
 def _is_own(wish: Wish, words: Sequence[Word], own: frozenset[Phrase], attributes: frozenset[Phrase]) -> bool:

@@ -43,7 +43,9 @@ class _Course:
         metres: Distance driven by its end, by odometry.
         path: Corners in local metres; empty for an action.
         reach: Fraction of the path covered by its end, 0 to 1.
-        action_j: Energy of the action in joules, spread evenly over its duration.
+        action_j: Energy of the action in joules, spread evenly over its duration, or over the metres on which an
+            implement is on.
+        on: Those parts of the whole path, as metres from its begin.
         meets: Hindrance that ends it.
         docks: Connected to the charger after it succeeded; None for no change.
     """
@@ -55,6 +57,7 @@ class _Course:
     path: tuple[Point, ...] = ()
     reach: float = 1.0
     action_j: float = 0.0
+    on: tuple[tuple[float, float], ...] = ()
     readings: Mapping[str, float] = field(default_factory=dict)
     what: str = ""
     fault: GoalFault = "none"
@@ -69,11 +72,19 @@ class _Course:
             outcome="failed",
             metres=part * self.metres,
             reach=part * self.reach,
-            action_j=part * self.action_j,
+            action_j=self.action_j if self.on else part * self.action_j,
             readings={},
             meets=None,
             docks=None,
         )
+
+    def joules(self, done: float) -> float:
+        """Return the energy of the action up to a fraction of the course."""
+        if not self.on:
+            return done * self.action_j
+        at_m = done * self.reach * sum(math.dist(a, b) for a, b in itertools.pairwise(self.path))
+        worked_m = sum(max(0.0, min(end, at_m) - begin) for begin, end in self.on)
+        return self.action_j * min(1.0, worked_m / total_m(self.on))
 
     def done_at(self, now: float) -> float:
         """Return the fraction of the course that is done, 0 to 1."""
@@ -161,7 +172,8 @@ class SimulatedDriver:
         if implement is None or not on_m:
             return course
         seconds = on_m / goal.speed_m_s + implement.on_delay_s
-        return replace(course, lasts_s=course.lasts_s + implement.on_delay_s, action_j=implement.power_w * seconds)
+        joules = implement.power_w * seconds
+        return replace(course, lasts_s=course.lasts_s + implement.on_delay_s, action_j=joules, on=work.on)
 
     def start_action(self, goal: ActionGoal) -> None:
         self._begin()
@@ -365,7 +377,7 @@ class SimulatedDriver:
 
     def _used(self, course: _Course, done: float) -> float:
         """Return the battery consumption in percent of a fraction of a course."""
-        used = self._robot.percent(done * course.metres, done * course.lasts_s, done * course.action_j)
+        used = self._robot.percent(done * course.metres, done * course.lasts_s, course.joules(done))
         return self._drained(used, course.start_s, course.start_s + done * course.lasts_s)
 
     def _drained(self, percent: float, from_s: float, to_s: float) -> float:

@@ -105,6 +105,7 @@ from fieldhand.planning.selections import (
     are_unvisited,
     has_open_number,
     is_block,
+    is_by_attribute,
     is_in_block,
     over,
     specifies_part,
@@ -199,6 +200,19 @@ def _ended(setting: Setting, state: DialogueState) -> DialogueState:
     if state.nominal is None and state.returned and state.plan.steps[-1].only_drives:
         return replace(state, nominal="stay")
     return state
+
+
+def _chooses_among(drive: DriveCommand, command: object) -> bool:
+    """Return True for "go to the courgettes and photograph every second one", which is one of them."""
+    kind = drive.place
+    if not isinstance(command, CaptureCommand) or command.place is None or drive.picks or drive.along:
+        return False
+    some = command.place
+    if kind.shape != "several" or kind.per is not None or kind.count is not None or not is_by_attribute(kind.selector):
+        return False
+    if some.shape not in ("one", "several") or some.like is not None or some.per is not None or some.beside:
+        return False
+    return specifies_part(some.selector) and not some.selector.relative and not is_by_attribute(some.selector)
 
 
 def _without_idle(state: DialogueState) -> DialogueState:
@@ -302,6 +316,8 @@ def _read(
                 not isinstance(one.command, LimitClause | RechargeClause | WayRule) for one in following
             ):
                 raise NotComposed(message("something follows the end of the mission", context="fault"))
+            if following and _chooses_among(command, following[0].command):
+                command = replace(command, place=replace(command.place, shape="area"))
             driven = drive(setting, state, command)
             if command.pace is not None:
                 driven = paced_drive(setting, state, driven, command.pace)

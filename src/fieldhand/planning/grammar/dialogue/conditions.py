@@ -29,6 +29,7 @@ from fieldhand.planning.grammar.dialogue.series import is_of_series, until_condi
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
+    OpenQuestion,
     Setting,
     Spans,
     done_at,
@@ -59,6 +60,7 @@ from fieldhand.planning.grammar.meaning import (
     UntilCondition,
     When,
 )
+from fieldhand.planning.grammar.words import hinted_attributes
 from fieldhand.planning.selections import as_some
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task import conditions as c
@@ -301,7 +303,23 @@ def _measured_here(setting: Setting, state: DialogueState, command: When) -> Dia
 
 
 def _assumed_first(setting: Setting, state: DialogueState, action: str, used: int) -> DialogueState:
-    """Return the state after it was assumed that a reading is taken where a condition asks for it."""
+    """Return the state after it was assumed that a reading is taken where a condition asks for it.
+
+    Raises:
+        OpenQuestion: The words may as well mean what the site records of its plants.
+    """
+    said = setting.quoted(used).lower()
+    for name in setting.robot.action[action].measures if action in setting.robot.action else ():
+        recorded = hinted_attributes(name.rpartition("_")[2], setting.site)
+        own = [word for word in setting.robot.quantity[name].words if word not in recorded]
+        if recorded and not any(word in said for word in own):
+            raise OpenQuestion(
+                message(
+                    "'{said}': is the value that the site records meant, or one that is measured first?",
+                    context="question",
+                    said=setting.quoted(used),
+                )
+            )
     first = message(
         "'{said}' is measured first ({action}), there.",
         context="assumption",

@@ -327,14 +327,19 @@ def _of_area(
     setting: Setting, place: PlaceMeaning, things: tuple[Thing, ...], count: int | None, relation: str, used: int
 ) -> PlaceMeaning:
     """Return the trees of an area: all of them, or as many as there are captures; of bare ground so many points."""
+    each = [bare_points(part, setting.site, 1) for part in place.selector.members]
+    if len(each) > 1 and None not in each and (count not in (None, 1) or _are_plural(things)):
+        raise OpenQuestion(message("'{said}': at how many places?", context="question", said=setting.quoted(used)))
+    if len(each) > 1 and None not in each:
+        return PlaceMeaning(s.UnionOf(parts=tuple(one for one in each if one is not None)), "several", count=len(each))
     if (points := bare_points(place.selector, setting.site, count or 1)) is not None:
         if count is None and _are_plural(things):
             raise OpenQuestion(message("'{said}': at how many places?", context="question", said=setting.quoted(used)))
         return PlaceMeaning(points, "several" if (count or 1) > 1 else "one", count=count)
     zones = [bare_zone(part, setting.site) for part in place.selector.members]
     if len(zones) > 1 and all(zones) and count in (None, 1, len(zones)):
-        each = s.UnionOf(parts=tuple(s.PointsIn(zone=zone) for zone in zones))  # "at the trough and the tap"
-        return PlaceMeaning(each, "several", each=True, count=len(zones))
+        points_of_each = s.UnionOf(parts=tuple(s.PointsIn(zone=zone) for zone in zones))  # "at the trough and the tap"
+        return PlaceMeaning(points_of_each, "several", each=True, count=len(zones))
     if count is None and _are_plural(things):
         return replace(place, shape="several")
     if relation in _OPEN and count in (None, 1) and setting.either("every tree, or how many?", used, (True, False)):

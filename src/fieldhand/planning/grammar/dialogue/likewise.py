@@ -26,6 +26,7 @@ from fieldhand.planning.selections import (
     as_in_row,
     as_ordered,
     as_some,
+    as_top,
     as_where,
     as_zone,
     chosen_from,
@@ -259,6 +260,12 @@ def _best_of_ranked(state: DialogueState, command: _WithPlace, best: s.Top) -> C
     """Return a command at the best of the trees that were ranked."""
     ranking = state.ranking
     last = None if ranking is not None or state.where is None else state.where.selector
+    where = state.where
+    if best.attribute and best.count == 1 and best.of == s.Trees() and ranking is None and where is not None:
+        group = where.selector  # "photograph the beans, then take a leaf of the tallest one"
+        of_those = where.shape == "several" and where.per is None and not group.relative and is_by_attribute(group)
+        if of_those and as_top(group) is None and command.place is not None:
+            return replace(command, place=replace(command.place, selector=replace(best, of=group), like=None))
     of_area = best.attribute and isinstance(last, s.Top) and not is_by_attribute(last.of)
     if of_area and best.count == 1 and command.place is not None and ranking is None:
         return replace(command, place=replace(command.place, like=None))  # "in the northern half, ... the youngest"

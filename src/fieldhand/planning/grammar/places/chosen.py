@@ -12,7 +12,7 @@ from typing import Any, Literal
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
+from fieldhand.planning.grammar.meaning import Likewise, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.areas import inside
 from fieldhand.planning.grammar.places.compass import AWAY_FROM, CORNERS, SIDES
 from fieldhand.planning.grammar.places.counted import Positions, TreeNumbers, row_of_all, rows_within
@@ -629,12 +629,10 @@ def places_of(chosen: Chosen, site: Site, word: Lex | None = None) -> list[Place
     if indefinite and (chosen.inner.plural or chosen.count is not None) and chosen.choice.by != "nearby":
         return None
     numbers = _numbers(chosen, definite=word is not None)
-    if chosen.choice.by == "evenly" and chosen.choice.value == s.RowOf():
-        own = row_of_all(chosen.inner, site)  # "six basil plants spread evenly along the bed", which is theirs
-        chosen = chosen if own is None else replace(chosen, choice=replace(chosen.choice, value=own))
-    if chosen.choice is None:
-        return None
-    made = [_place(chosen, choice, n) for choice in _named(chosen.choice, site) for n in numbers]
+    how = chosen.choice
+    if how.by == "evenly" and how.value == s.RowOf() and (own := row_of_all(chosen.inner, site)) is not None:
+        how = replace(how, value=own)  # "six basil plants spread evenly along the bed", which is theirs
+    made = [_place(chosen, choice, n) for choice in _named(how, site) for n in numbers]
     if chosen.per is not None:
         made = [None if one is None else in_each_row(one, chosen.per) for one in made]
     return [one for one in made if one is not None] or None
@@ -743,9 +741,11 @@ def _place(chosen: Chosen, choice: Choice, n: int | None) -> PlaceMeaning | None
     if choice.by == "of every" and n == 1:
         return PlaceMeaning(selector, "several", each=True)
     beside = chosen.neighbours if choice.to is None else choice.to.shape == "here"
+    ranked = inner.pronoun and choice.by == "best" and n == 1 and of == s.Trees()  # "one of the youngest"
+    like = Likewise("ranked") if ranked else None
     vague = choice.value[0] if choice.by == "best" and n > 1 and chosen.count is None else ""
     shape: Literal["one", "several"] = "one" if n == 1 else "several"
-    return PlaceMeaning(selector, shape, count=n if n > 1 else None, beside=beside, vague=vague)
+    return PlaceMeaning(selector, shape, count=n if n > 1 else None, beside=beside, like=like, vague=vague)
 
 
 def _measurable(choice: Choice) -> bool:

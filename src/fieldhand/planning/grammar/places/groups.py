@@ -24,6 +24,7 @@ from fieldhand.planning.selections import (
     landmark_of,
     leaves_out,
     measures_distance,
+    named_places,
     of_each,
     over,
     replaceable_area,
@@ -187,6 +188,13 @@ def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[Place
     # "The first tree and the last tree of row 4": is the first that of the row, too?
     in_row = tuple(over(part, counted.of) if is_end_of_site(part) else part for part in parts)
     return [whole, replace(whole, selector=s.UnionOf(parts=in_row))]
+
+
+@construction("place: word=EACH whole=place", cost=0.1)
+def both_of_two(word: Lex, whole: PlaceMeaning) -> PlaceMeaning | None:
+    """Compose "both the trough and the mast"."""
+    two = "two" in word.features and word.text == "both" and len(named_places(whole.selector)) == 2
+    return replace(whole, each=True) if two and whole.per is None and whole.shape in ("several", "area") else None
 
 
 def _is_named_best(place: PlaceMeaning) -> bool:

@@ -1,0 +1,253 @@
+"""Optional visits of sampled missions that charge in between, by the decisions that the guard takes on board.
+
+Before each visit a mission decides from its own charge and time whether it charges first
+(:mod:`fieldhand.forecast.recharge_rules`). Once there is no time to charge, it makes only the visits for which its
+charge suffices.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldhand.errors import DriveFault
+from fieldhand.forecast.charging_missions import ChargingMissions
+from fieldhand.forecast.mission_state import Visit, Work
+from fieldhand.forecast.recharge_rules import ANY_NUMBER, RechargeRules
+from fieldhand.forecast.remaining_work import RemainingWork
+from fieldhand.forecast.resource_limits import ResourceLimit
+from fieldhand.forecast.route_cost import cost_model
+from fieldhand.site.model import Place
+
+if TYPE_CHECKING:
+    from fieldhand.orienteering.policy import Policy
+    from fieldhand.orienteering.preview import Departures
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Flags = NDArray[np.bool_]
+
+#: Number of the charger, where others are numbers of visits.
+_CHARGER = -1
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Spot:
+    """The charger and home as seen from the place where a visit ends.
+
+    Attributes:
+        away_m: Metres to the charger; infinite if there is no way.
+        home_m: Metres to the exit for a low budget; infinite if there is no way.
+    """
+
+    away_m: float
+    home_m: float
+
+
+class ChargedVisits:
+    """Sampled missions on their optional visits (:class:`fieldhand.orienteering.preview.Detours`).
+
+    Args:
+        missions: The missions when they reach the visits; they go on here.
+        rules: Rules of recharging.
+        here: Place where the visits begin, vertex 0.
+        visits: Candidates, vertices 1 and up.
+        rest: Mandatory work that follows.
+        limits: Limits of the whole mission, as when they were reached.
+        budgets: Budgets of the Task, with which a charge must be kept.
+        length: Returns the metres between two places.
+        home: Returns the exit for a low budget from a place.
+        slower_s_per_m: Seconds per metre that the drives to visits take beyond those of the mission's speed.
+    """
+
+    def __init__(
+        self,
+        missions: ChargingMissions,
+        rules: RechargeRules,
+        *,
+        here: Place,
+        visits: Sequence[Visit],
+        rest: RemainingWork,
+        limits: Sequence[ResourceLimit],
+        budgets: Sequence[ResourceLimit],
+        length: Callable[[Place, Place], float],
+        home: Callable[[Place], Place],
+        slower_s_per_m: float = 0.0,
+    ) -> None:
+        self.missions, self._rules, self._rest = missions, rules, rest
+        self._here, self._visits, self._slower = here, visits, slower_s_per_m
+        self._limits, self._budgets, self._length, self._home = limits, budgets, length, home
+        #: Policy from the charger, if missions plan anew there.
+        self.policy: Policy | None = None
+        draws = len(missions.level)
+        self._at: Ints = np.zeros(draws, dtype=np.int64)
+        self._dry: Flags = np.zeros(draws, dtype=bool)
+        self._spots: dict[int, _Spot] = {}
+        self._first: dict[int, tuple[float, float]] = {}
+
+    @property
+    def charger(self) -> Place:
+        """Return the charger."""
+        return self._rules.charger
+
+    def left(self, some: Ints) -> Floats:
+        """Return what is left of each limit in metres of driving, shape (missions, limits)."""
+        missions, rules = self.missions, self._rules
+        percent, charged = missions.spent_percent(some), missions.charged_percent(some)
+        used = {
+            "distance_m": missions.metres[some],
+            "duration_s": missions.spent_seconds(some),
+            "energy_percent": percent,
+            "reserve": percent,
+        }
+        found = np.empty((len(some), len(self._limits)))
+        for number, limit in enumerate(self._limits):
+            amount = limit.limit + limit.per_percent * (charged - percent) - used[limit.kind]
+            if limit.kind == "reserve":
+                counted = rules.at_most + rules.planned < ANY_NUMBER
+                amount = amount + charged - counted * rules.usable_percent * missions.charges[some]
+            found[:, number] = amount / limit.per_metre - limit.metres_of(self._rest.work, rules.robot)
+        return found
+
+    def length(self, stop: int) -> float:
+        """Return the metres from the charger to a stop, or to the work that follows."""
+        if stop > len(self._visits):
+            return 0.0 if self._rest.first is None else self._metres(self._rules.charger, self._rest.first)
+        return self._from_charger(stop)[0]
+
+    def set_out(self, some: Ints, stop: int, legs: Floats, rng: np.random.Generator) -> Departures:
+        """Decide on the visit to a stop, and charge first where it is needed.
+
+        Args:
+            some: The missions.
+            stop: Vertex of the visit.
+            legs: Metres from the place of each to the stop.
+            rng: Random generator of the leg costs.
+        """
+        from fieldhand.orienteering.preview import Departures
+
+        rules, missions, visit = self._rules, self.missions, self._visits[stop - 1]
+        level, away = missions.level[some], self._away(some)
+        begin_m, first = self._from_charger(stop)
+        needed = rules.needed(_there_and_back(legs, self._spot(stop).away_m), self._docked(visit))
+        must = rules.must_charge(level, needed)
+        wants = must & rules.gains(level) & (missions.ordered[some] < rules.at_most) & np.isfinite(away)
+        wants &= (first <= rules.until_percent) & (self._at[some] != _CHARGER)
+        charges = wants & ~self._dry[some]
+        if charges.any():
+            charges &= self._fits(some, visit, stop, away, begin_m)
+        self._dry[some] |= wants & ~charges
+        if charges.any():
+            going = some[charges]
+            costs = cost_model(rules.robot).draw(rng, len(going))
+            missions.drive(away[charges] * costs, going)
+            missions.ordered[going] += 1.0
+            missions.dock(going, rules.target(math.inf, missions.level[going]))
+            self._at[going] = _CHARGER
+        makes = (first <= rules.until_percent) & ~(must & self._dry[some])
+        waits = charges & (self.policy is not None)
+        return Departures(makes=makes & ~waits, waits=waits, legs=np.where(charges, begin_m, legs))
+
+    def arrive(self, some: Ints, stop: int, costs: Floats) -> None:
+        """Drive to a stop at these costs in metres, and make the visit."""
+        visit = self._visits[stop - 1]
+        self.missions.drive(costs + visit.inside_m, some, self._slower)
+        self.missions.act(visit.work, some)
+        self._at[some] = stop
+
+    def ended(self) -> ChargingMissions:
+        """Return the missions after their visits, to go on from there independently."""
+        missions = self.missions.copy()
+        missions.away_m = self._away(np.arange(len(self._at)))
+        return missions
+
+    @property
+    def onward_m(self) -> Floats:
+        """Return the metres from the last visit of each mission to the work that follows."""
+        to = self._rest.first
+        found = np.zeros(len(self._at))
+        if to is not None:
+            for vertex in np.unique(self._at).tolist():
+                found[self._at == vertex] = self._metres(self._end(vertex), to)
+        return found
+
+    def _fits(self, some: Ints, visit: Visit, stop: int, away: Floats, begin_m: float) -> Flags:
+        """Return True where charging, the visit and the way home keep the budgets."""
+        rules, missions = self._rules, self.missions
+        charging, robot = rules.robot.energy.charging, rules.robot
+        assert charging is not None  # noqa: S101  rules exist only for a robot that charges
+        home_m = self._spot(stop).home_m
+        fits = np.full(len(some), math.isfinite(begin_m + home_m))
+        if not fits.any():
+            return fits
+        full_s = charging.seconds(missions.level[some], rules.until_percent, robot.energy.capacity_j)
+        legs = [away**n + begin_m**n + home_m**n for n in (1, 2, 3)]
+        used = {
+            "distance_m": missions.metres[some],
+            "duration_s": missions.spent_seconds(some),
+            "energy_percent": missions.spent_percent(some),
+        }
+        around = Work(seconds=charging.around_s, joules=charging.around_j)
+        slower = Work(seconds=begin_m * self._slower)
+        for budget in self._budgets:
+            work = budget.of_work(robot, around + visit.work + slower)
+            at_charger = full_s if budget.kind == "duration_s" else 0.0  # it supplies the robot
+            left = budget.limit - used[budget.kind] - work - at_charger
+            fits &= rules.longest(legs, budget.failure_probability) * budget.per_metre <= left
+        return fits
+
+    def _docked(self, visit: Visit) -> float:
+        """Return the charge in percent that a visit takes, and docking."""
+        rules, work = self._rules, visit.work
+        return rules.robot.percent(0.0, work.seconds, work.joules) + work.metres * rules.per_metre + rules.dock_percent
+
+    def _from_charger(self, stop: int) -> tuple[float, float]:
+        """Return the metres from the charger to a stop, and the charge in percent that suffices for it from there."""
+        found = self._first.get(stop)
+        if found is None:
+            visit, rules = self._visits[stop - 1], self._rules
+            begin_m, needed = self._metres(rules.charger, visit.place), math.inf
+            back_m = self._spot(stop).away_m
+            if math.isfinite(begin_m + back_m):
+                sums, work = _there_and_back(np.array(begin_m), back_m), self._docked(visit)
+                needed = float(rules.needed(sums, work, charged=True))
+            found = self._first[stop] = (begin_m, needed)
+        return found
+
+    def _away(self, some: Ints) -> Floats:
+        """Return the metres of missions to the charger."""
+        at = self._at[some]
+        found = np.empty(len(some))
+        for vertex in np.unique(at).tolist():
+            found[at == vertex] = self._spot(vertex).away_m
+        return found
+
+    def _spot(self, vertex: int) -> _Spot:
+        found = self._spots.get(vertex)
+        if found is None:
+            end = self._end(vertex)
+            found = self._spots[vertex] = _Spot(
+                away_m=self._metres(end, self._rules.charger), home_m=self._metres(end, self._home(end))
+            )
+        return found
+
+    def _end(self, vertex: int) -> Place:
+        if vertex == _CHARGER:
+            return self._rules.charger
+        return self._here if vertex == 0 else self._visits[vertex - 1].end
+
+    def _metres(self, a: Place, b: Place) -> float:
+        try:
+            return self._length(a, b)
+        except DriveFault:
+            return math.inf
+
+
+def _there_and_back(there: Floats, back_m: float) -> list[Floats]:
+    """Return the sums of the lengths of two legs, of their squares and of their cubes."""
+    return [there**n + back_m**n for n in (1, 2, 3)]
