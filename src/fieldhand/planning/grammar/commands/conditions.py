@@ -158,7 +158,7 @@ def _is_known(place: PlaceMeaning) -> bool:
     counted = as_in_row(place.selector)
     if (
         place.shape != "one"
-        or (place.refers_back and place.like is not None and place.like.kind)
+        or (place.like is not None and place.like.kind not in ("", "ranked"))
         or as_some(place.selector) is not None
     ):
         return False
