@@ -57,7 +57,7 @@ def _catalogue_words() -> tuple[set[str], set[str]]:
 
 ENGLISH_WORDS, SPANISH_WORDS = _catalogue_words()
 #: What units and the names of values in the built-in orchard are called is no English.
-ONLY_ENGLISH = ENGLISH_WORDS - SPANISH_WORDS - {"kg", "cm"}
+ONLY_ENGLISH = ENGLISH_WORDS - SPANISH_WORDS - {"kg", "cm", "ppm"}
 #: Nor are names of the site: of its zones, and of a variety.
 OF_THE_SITE = words_of(" ".join(zone.name for zone in DEMO.zones)) | {"carmel"}
 

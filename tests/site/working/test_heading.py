@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from fieldhand.approval.checks import examine
@@ -78,6 +79,7 @@ def test_a_stretch_that_is_driven_one_way_only_is_not_turned() -> None:
 )
 @settings(max_examples=60)
 def test_a_headed_unit_keeps_its_work_and_never_leads_away(points, side) -> None:
+    assume(sum(math.dist(a, b) for a, b in pairwise(points)) >= 1.0)
     stretch = Stretch(name="a", points=tuple(points), on=((0.0, 1.0),))
     try:
         (unit,) = headed([WorkUnit(options=((stretch,),))], side, "here")
