@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from fieldhand.forecast.charging_missions import ChargingMissions
 from fieldhand.forecast.mission_state import Work
@@ -152,6 +152,7 @@ class _Ahead:
         asked: Charge in percent that the work takes about which the guard was asked.
         later: Sums of the legs after the stretch.
         work: Charge in percent that its work and all later work takes.
+        ends: True for the way home.
     """
 
     rules: RechargeRules
@@ -159,20 +160,24 @@ class _Ahead:
     asked: Floats
     later: Floats
     work: Floats
+    ends: NDArray[np.bool_]
 
     def suffices(self, first_m: Floats, number: int | slice = slice(None), *, charged: bool = False) -> Floats:
         """Return the charge that suffices for stretches whose first leg has this length."""
         rules, back_m = self.rules, self.back_m[number]
         there = np.where(np.isfinite(back_m), back_m, 0.0)
         docked = self.asked[number] + np.where(back_m > 0.0, rules.dock_percent, 0.0)
-        to_charger = rules.needed([first_m**n + there**n for n in (1, 2, 3)], docked, charged=charged)
-        rest = self.everything(first_m, number, charged=charged)
+        ends = self.ends[number]
+        to_charger = rules.needed([first_m**n + there**n for n in (1, 2, 3)], docked, charged=charged, ends=ends)
+        rest = self.everything(first_m, number, charged=charged, ends=ends)
         return np.where(np.isfinite(back_m), np.minimum(to_charger, rest), rest)
 
-    def everything(self, first_m: Floats, number: int | slice = slice(None), *, charged: bool = False) -> Floats:
+    def everything(
+        self, first_m: Floats, number: int | slice = slice(None), *, charged: bool = False, ends: ArrayLike = False
+    ) -> Floats:
         """Return the charge that suffices for everything that is left."""
         sums = [first_m**n + self.later[n - 1, number] for n in (1, 2, 3)]
-        return self.rules.needed(sums, self.work[number], charged=charged)
+        return self.rules.needed(sums, self.work[number], charged=charged, ends=ends)
 
 
 def _ahead(some: Sequence[GuardedStep], rules: RechargeRules, *, ends: bool) -> _Ahead:
@@ -187,7 +192,8 @@ def _ahead(some: Sequence[GuardedStep], rules: RechargeRules, *, ends: bool) -> 
         later[:, k] = 0.0 if charges else later[:, k + 1] + [leg[k], leg[k] ** 2, leg[k] ** 3]
         later_work[k] = 0.0 if charges else later_work[k + 1] + own[k]
     asked = np.array([_percent(s.asked or s.work, rules) for s in some])
-    return _Ahead(rules=rules, back_m=back, asked=asked, later=later[:, 1:], work=own + later_work[1:])
+    home = np.array([s.step is not None and s.step.kind == "exit" for s in some], dtype=bool)
+    return _Ahead(rules=rules, back_m=back, asked=asked, later=later[:, 1:], work=own + later_work[1:], ends=home)
 
 
 def charges_needed(some: Sequence[GuardedStep], rules: RechargeRules) -> ChargesNeeded:
