@@ -22,7 +22,7 @@ from fieldhand.forecast.service import work_of
 from fieldhand.forecast.walk_steps import WalkStep, work_in
 from fieldhand.site.model import Place
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import Recharge
+from fieldhand.task.plan import Recharge, walk
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -39,6 +39,7 @@ class GuardedStep:
         leg_m: Metres driven to its place; 0 for an action.
         work: Work of the step itself, with the time by which a pace slows its drive.
         asked: Work that the guard was asked about with it; None if an earlier question covered it.
+        expected: Work that the guard expects of it beforehand: of a visit the longest branch, with the visit's drive.
         from_charger_m, to_charger_m: Metres from the charger to its place, and back; infinite if there is no way.
         visits: Optional visits of each sampled mission.
     """
@@ -47,6 +48,7 @@ class GuardedStep:
     leg_m: float
     work: Work
     asked: Work | None
+    expected: Work
     from_charger_m: float
     to_charger_m: float
     visits: SampledVisits | None = None
@@ -64,6 +66,7 @@ def stretches(
     found: list[GuardedStep] = []
     metres: dict[tuple[float, float], float] = {}
     covered: str | None = None
+    whole = False  # all work of the visit has been counted with its drive
     for step in steps:
         if isinstance(step, SampledVisits):
             found.append(_of_visits(step))
@@ -79,9 +82,12 @@ def stretches(
         leg_m = 0.0 if step.drive is None else step.drive.length_m
         work = Work() if step.kind == "charge" else step.work if step.kind == "work" else work_in(step)
         asked: Work | None = work
+        expected = work
         if step.kind == "drive" and step.node.visits_each and step.node.work is None:
             (body,) = step.node.children
             asked, covered = work + work_of(body, rules.robot), _spot(place)
+            whole = all(node.selector is None and node.recharge is None for node in walk(body))
+            expected = asked if whole else work
         elif step.kind == "work":
             covered, before = None, found[-1] if found else None
             drive = None if before is None else before.step
@@ -93,6 +99,7 @@ def stretches(
             covered = None
         elif covered == _spot(place):
             asked = None
+            expected = Work() if whole else work
         if step.node.recharge is not None:
             asked = None
         found.append(
@@ -101,6 +108,7 @@ def stretches(
                 leg_m=leg_m,
                 work=work,
                 asked=asked,
+                expected=expected,
                 from_charger_m=away,
                 to_charger_m=0.0 if step.kind == "exit" else away,
             )
@@ -111,11 +119,13 @@ def stretches(
 def _of_visits(visits: SampledVisits) -> GuardedStep:
     """Return the optional visits as a stretch with the mean of all missions."""
     metres, seconds, joules = visits.work
+    work = Work(seconds=float(seconds.mean()), joules=float(joules.mean()))
     return GuardedStep(
         step=None,
         leg_m=float((visits.preview.legs + metres).mean()),
-        work=Work(seconds=float(seconds.mean()), joules=float(joules.mean())),
+        work=work,
         asked=None,
+        expected=work,
         from_charger_m=math.inf,
         to_charger_m=math.inf,
         visits=visits,
@@ -151,7 +161,7 @@ class _Ahead:
         back_m: Metres from its end to the charger; infinite if there is no way.
         asked: Charge in percent that the work takes about which the guard was asked.
         later: Sums of the legs after the stretch.
-        work: Charge in percent that its work and all later work takes.
+        work: Charge in percent that its work and all later work is expected to take.
         ends: True for the way home.
     """
 
@@ -183,7 +193,7 @@ class _Ahead:
 def _ahead(some: Sequence[GuardedStep], rules: RechargeRules, *, ends: bool) -> _Ahead:
     """Return what lies ahead of each stretch; without ``ends``, much may follow the last one."""
     leg, back = (np.array([getattr(s, name) for s in some]) for name in ("leg_m", "to_charger_m"))
-    own = np.array([_percent(s.work, rules) for s in some])
+    own = np.array([_percent(s.expected, rules) for s in some])
     later = np.zeros((3, len(some) + 1))
     later_work = np.full(len(some) + 1, 0.0 if ends else np.inf)
     for k in range(len(some) - 1, -1, -1):
