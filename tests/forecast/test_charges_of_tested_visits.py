@@ -15,7 +15,7 @@ from fieldhand.places.selectors import Rows
 from fieldhand.site.model import Site
 from fieldhand.task.conditions import TreeHas
 from fieldhand.task.plan import Act, ForEach, If, InOrder
-from fieldhand.task.results import ChargeEnded
+from fieldhand.task.results import ChargeEnded, Ended
 from support.missions.rechargeable import rechargeable, task_of
 from support.missions.rig import of_type
 
@@ -55,7 +55,7 @@ def test_time_at_the_charger_and_charge_at_the_end_are_those_of_flights(approved
     assert all(of_type(run.events, ChargeEnded) for run in runs)
     for forecast, flown in (
         (used.charging.docked_s, [run.result.spent.docked_s for run in runs]),
-        (used.charging.left, [run.events[-1].charge_percent for run in runs]),
+        (used.charging.left, [of_type(run.events, Ended)[0].charge_percent for run in runs]),
     ):
         spread = max(float(np.std(flown)), float(np.std(forecast)))
         assert np.mean(flown) == pytest.approx(
