@@ -63,13 +63,14 @@ def add_earlier(
         JournalError: The folder may not be read.
         TaskError: The Task depends on more earlier captures than it can contain.
     """
-    from fieldhand.cli.show import note
-    from fieldhand.missions.earlier_missions import earlier_missions
-    from fieldhand.task.codec import encode
     from fieldhand.task.earlier import uses_records, with_earlier
 
     if not uses_records(task) or (task.earlier is not None and not earlier.recount):
         return task, document
+    from fieldhand.cli.show import note
+    from fieldhand.missions.earlier_missions import earlier_missions
+    from fieldhand.task.codec import encode
+
     records = earlier_missions(
         site_and_robot.site,
         folder,

@@ -155,7 +155,7 @@ class ChargesNeeded:
 
 @dataclass(frozen=True, kw_only=True)
 class _Ahead:
-    """What lies ahead of each stretch, shape (stretches,), or (3, stretches) for sums of lengths, squares and cubes.
+    """Sums of the work ahead of each stretch, shape (stretches,), or (3, stretches) of lengths, squares and cubes.
 
     Attributes:
         back_m: Metres from its end to the charger; infinite if there is no way.

@@ -22,11 +22,11 @@ from fieldhand.forecast.recharge_rules import ANY_NUMBER, RechargeRules
 from fieldhand.forecast.remaining_work import RemainingWork
 from fieldhand.forecast.resource_limits import ResourceLimit
 from fieldhand.forecast.route_cost import cost_model
-from fieldhand.orienteering.preview import Departures
 from fieldhand.site.model import Place
 
 if TYPE_CHECKING:
     from fieldhand.orienteering.policy import Policy
+    from fieldhand.orienteering.preview import Departures
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -129,6 +129,8 @@ class ChargedVisits:
             legs: Metres from the place of each to the stop.
             rng: Random generator of the leg costs.
         """
+        from fieldhand.orienteering.preview import Departures
+
         rules, missions, visit = self._rules, self.missions, self._visits[stop - 1]
         level, away = missions.level[some], self._away(some)
         begin_m, first = self._from_charger(stop)

@@ -160,6 +160,11 @@ class PlaceMeaning:
     vague: str = ""
     tokens: int = field(default=0, compare=False)
 
+    @property
+    def refers_back(self) -> bool:
+        """True if only places named before tell which ones are meant; "the oldest one" may be that of all."""
+        return self.like is not None and self.like.kind != "ranked"
+
     def with_tokens(self, used: int) -> PlaceMeaning:
         """Return the meaning of a phrase of these tokens."""
         return replace(self, tokens=used)

@@ -59,7 +59,7 @@ def of_all(one: Subject) -> Subject:
 @construction("statistic: one=statistic relation place=place", "statistic: place=owned_by one=statistic", cost=0.1)
 def statistic_at(one: Subject, place: PlaceMeaning) -> Subject | None:
     """Compose "the average in row 3" and "row 3's average"."""
-    known = place.shape in (*_PLACES, "one") and place.like is None and not place.optional and place.at_most is None
+    known = place.shape in (*_PLACES, "one") and not place.refers_back and not place.optional and place.at_most is None
     return replace(one, place=place) if known and one.place is None else None
 
 
@@ -219,7 +219,7 @@ def side_of_place(place: PlaceMeaning, noun: Lex | None = None, word: Lex | None
     """Compose "row 4", "that of row 4" and "the temperature of row 4" as one side of a comparison."""
     if word is not None and word.features.isdisjoint({"demonstrative", "those"}):
         return None
-    if place.shape not in (*_PLACES, "one") or place.like is not None or place.optional or place.per is not None:
+    if place.shape not in (*_PLACES, "one") or place.refers_back or place.optional or place.per is not None:
         return None
     quantities = [""] if noun is None else list(dict.fromkeys(noun.value.quantities))
     return [Subject(name, place) for name in quantities]

@@ -156,7 +156,11 @@ def reading_to_side(side: str = "", place: Lex | None = None) -> Subject | None:
 def _is_known(place: PlaceMeaning) -> bool:
     """Return True for one place that the phrase names by itself: not any tree of several."""
     counted = as_in_row(place.selector)
-    if place.shape != "one" or (place.like is not None and place.like.kind) or as_some(place.selector) is not None:
+    if (
+        place.shape != "one"
+        or (place.like is not None and place.like.kind not in ("", "ranked"))
+        or as_some(place.selector) is not None
+    ):
         return False
     return counted is None or is_one_row(counted.of)
 

@@ -51,7 +51,8 @@ class Excluded:
 def place_kept_out(place: PlaceMeaning) -> Excluded | None:
     """Compose "the yellow trees" of "skip the yellow trees"."""
     known = place.shape in ("one", "several", "area") and place.per is None and not place.optional
-    return Excluded(place) if known and (place.like is None or place.like.kind == "those") else None
+    those = place.like is not None and place.like.kind == "those"
+    return Excluded(place) if known and (those or not place.refers_back) else None
 
 
 @construction("kept_out: in_ where=region", cost=0.2)

@@ -43,7 +43,7 @@ def compass_side(side: Lex) -> TreeSide | None:
 
 def beside(place: PlaceMeaning, side: TreeSide) -> PlaceMeaning | None:
     """Return the side of a place, or both sides of it; None for what is spoken of, or has a side already."""
-    if place.shape not in ("one", "several", "area") or place.per is not None or place.like is not None:
+    if place.shape not in ("one", "several", "area") or place.per is not None or place.refers_back:
         return None
     if place.optional or place.at_most is not None or place.selector.named_marker:
         return None

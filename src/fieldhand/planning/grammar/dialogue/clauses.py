@@ -210,7 +210,7 @@ def _chooses_among(drive: DriveCommand, command: object) -> bool:
     some = command.place
     if kind.shape != "several" or kind.per is not None or kind.count is not None or not is_by_attribute(kind.selector):
         return False
-    if some.shape not in ("one", "several") or some.like is not None or some.per is not None or some.beside:
+    if some.shape not in ("one", "several") or some.refers_back or some.per is not None or some.beside:
         return False
     return specifies_part(some.selector) and not some.selector.relative and not is_by_attribute(some.selector)
 

@@ -338,8 +338,8 @@ def _of_area(
         return PlaceMeaning(points, "several" if (count or 1) > 1 else "one", count=count)
     zones = [bare_zone(part, setting.site) for part in place.selector.members]
     if len(zones) > 1 and all(zones) and count in (None, 1, len(zones)):
-        each = s.UnionOf(parts=tuple(s.PointsIn(zone=zone) for zone in zones))  # "at the trough and the tap"
-        return PlaceMeaning(each, "several", each=True, count=len(zones))
+        points_of_each = s.UnionOf(parts=tuple(s.PointsIn(zone=zone) for zone in zones))  # "at the trough and the tap"
+        return PlaceMeaning(points_of_each, "several", each=True, count=len(zones))
     if count is None and _are_plural(things):
         return replace(place, shape="several")
     if relation in _OPEN and count in (None, 1) and setting.either("every tree, or how many?", used, (True, False)):

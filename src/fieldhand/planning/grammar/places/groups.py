@@ -62,7 +62,7 @@ def namely(some: PlaceMeaning, exact: Nominal) -> PlaceMeaning | None:
 def in_each_case(some: PlaceMeaning, exact: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "one Merlot and one Syrah vine, in each case the one closest to the barn"."""
     ones = [as_some(part) for part in some.selector.members]
-    if exact.shape != "one" or not specifies_part(exact.selector) or exact.like is not None:
+    if exact.shape != "one" or not specifies_part(exact.selector) or exact.refers_back:
         return None
     if (len(ones) < 2 and some.per is None) or some.shape not in ("one", "several"):
         return None

@@ -40,7 +40,7 @@ Choices = tuple[Chosen, ...]
 
 def _is_group(place: PlaceMeaning) -> bool:
     """Return True for several places of which some can be meant."""
-    plain = place.per is None and not place.optional and place.at_most is None and place.like is None
+    plain = place.per is None and not place.optional and place.at_most is None and not place.refers_back
     return plain and place.shape == "several"
 
 
