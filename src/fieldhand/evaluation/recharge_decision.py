@@ -116,10 +116,10 @@ class RechargeDecider:
         needed = math.inf
         if math.isfinite(there + back):
             way = route_cost([there, back], visit.work + self._budget.slower(visit, there, here))
-            needed = rules.needed_for(way, charged=charged, docks=True)
+            needed = rules.needed_for(way, charged=charged, docks=True, ends=visit.ends)
         if after is not None and math.isfinite(there):
             way = route_cost([there], self._budget.slower(visit, there, here)) + after
-            needed = min(needed, rules.needed_for(way, charged=charged))
+            needed = min(needed, rules.needed_for(way, charged=charged, ends=visit.ends))
         return needed
 
     def _whole(self, rules: RechargeRules, visit: Visit, after: RouteCost) -> float:

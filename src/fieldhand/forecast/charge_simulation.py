@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from fieldhand.forecast.charging_missions import ChargingMissions
 from fieldhand.forecast.mission_state import Work
@@ -22,7 +22,7 @@ from fieldhand.forecast.service import work_of
 from fieldhand.forecast.walk_steps import WalkStep, work_in
 from fieldhand.site.model import Place
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import Recharge
+from fieldhand.task.plan import Recharge, walk
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -39,6 +39,7 @@ class GuardedStep:
         leg_m: Metres driven to its place; 0 for an action.
         work: Work of the step itself, with the time by which a pace slows its drive.
         asked: Work that the guard was asked about with it; None if an earlier question covered it.
+        expected: Work that the guard expects of it beforehand: of a visit the longest branch, with the visit's drive.
         from_charger_m, to_charger_m: Metres from the charger to its place, and back; infinite if there is no way.
         visits: Optional visits of each sampled mission.
     """
@@ -47,6 +48,7 @@ class GuardedStep:
     leg_m: float
     work: Work
     asked: Work | None
+    expected: Work
     from_charger_m: float
     to_charger_m: float
     visits: SampledVisits | None = None
@@ -64,6 +66,7 @@ def stretches(
     found: list[GuardedStep] = []
     metres: dict[tuple[float, float], float] = {}
     covered: str | None = None
+    whole = False  # all work of the visit has been counted with its drive
     for step in steps:
         if isinstance(step, SampledVisits):
             found.append(_of_visits(step))
@@ -79,9 +82,12 @@ def stretches(
         leg_m = 0.0 if step.drive is None else step.drive.length_m
         work = Work() if step.kind == "charge" else step.work if step.kind == "work" else work_in(step)
         asked: Work | None = work
+        expected = work
         if step.kind == "drive" and step.node.visits_each and step.node.work is None:
             (body,) = step.node.children
             asked, covered = work + work_of(body, rules.robot), _spot(place)
+            whole = all(node.selector is None and node.recharge is None for node in walk(body))
+            expected = asked if whole else work
         elif step.kind == "work":
             covered, before = None, found[-1] if found else None
             drive = None if before is None else before.step
@@ -93,6 +99,7 @@ def stretches(
             covered = None
         elif covered == _spot(place):
             asked = None
+            expected = Work() if whole else work
         if step.node.recharge is not None:
             asked = None
         found.append(
@@ -101,6 +108,7 @@ def stretches(
                 leg_m=leg_m,
                 work=work,
                 asked=asked,
+                expected=expected,
                 from_charger_m=away,
                 to_charger_m=0.0 if step.kind == "exit" else away,
             )
@@ -111,11 +119,13 @@ def stretches(
 def _of_visits(visits: SampledVisits) -> GuardedStep:
     """Return the optional visits as a stretch with the mean of all missions."""
     metres, seconds, joules = visits.work
+    work = Work(seconds=float(seconds.mean()), joules=float(joules.mean()))
     return GuardedStep(
         step=None,
         leg_m=float((visits.preview.legs + metres).mean()),
-        work=Work(seconds=float(seconds.mean()), joules=float(joules.mean())),
+        work=work,
         asked=None,
+        expected=work,
         from_charger_m=math.inf,
         to_charger_m=math.inf,
         visits=visits,
@@ -151,7 +161,8 @@ class _Ahead:
         back_m: Metres from its end to the charger; infinite if there is no way.
         asked: Charge in percent that the work takes about which the guard was asked.
         later: Sums of the legs after the stretch.
-        work: Charge in percent that its work and all later work takes.
+        work: Charge in percent that its work and all later work is expected to take.
+        ends: True for the way home.
     """
 
     rules: RechargeRules
@@ -159,26 +170,30 @@ class _Ahead:
     asked: Floats
     later: Floats
     work: Floats
+    ends: NDArray[np.bool_]
 
     def suffices(self, first_m: Floats, number: int | slice = slice(None), *, charged: bool = False) -> Floats:
         """Return the charge that suffices for stretches whose first leg has this length."""
         rules, back_m = self.rules, self.back_m[number]
         there = np.where(np.isfinite(back_m), back_m, 0.0)
         docked = self.asked[number] + np.where(back_m > 0.0, rules.dock_percent, 0.0)
-        to_charger = rules.needed([first_m**n + there**n for n in (1, 2, 3)], docked, charged=charged)
-        rest = self.everything(first_m, number, charged=charged)
+        ends = self.ends[number]
+        to_charger = rules.needed([first_m**n + there**n for n in (1, 2, 3)], docked, charged=charged, ends=ends)
+        rest = self.everything(first_m, number, charged=charged, ends=ends)
         return np.where(np.isfinite(back_m), np.minimum(to_charger, rest), rest)
 
-    def everything(self, first_m: Floats, number: int | slice = slice(None), *, charged: bool = False) -> Floats:
+    def everything(
+        self, first_m: Floats, number: int | slice = slice(None), *, charged: bool = False, ends: ArrayLike = False
+    ) -> Floats:
         """Return the charge that suffices for everything that is left."""
         sums = [first_m**n + self.later[n - 1, number] for n in (1, 2, 3)]
-        return self.rules.needed(sums, self.work[number], charged=charged)
+        return self.rules.needed(sums, self.work[number], charged=charged, ends=ends)
 
 
 def _ahead(some: Sequence[GuardedStep], rules: RechargeRules, *, ends: bool) -> _Ahead:
     """Return what lies ahead of each stretch; without ``ends``, much may follow the last one."""
     leg, back = (np.array([getattr(s, name) for s in some]) for name in ("leg_m", "to_charger_m"))
-    own = np.array([_percent(s.work, rules) for s in some])
+    own = np.array([_percent(s.expected, rules) for s in some])
     later = np.zeros((3, len(some) + 1))
     later_work = np.full(len(some) + 1, 0.0 if ends else np.inf)
     for k in range(len(some) - 1, -1, -1):
@@ -187,7 +202,8 @@ def _ahead(some: Sequence[GuardedStep], rules: RechargeRules, *, ends: bool) -> 
         later[:, k] = 0.0 if charges else later[:, k + 1] + [leg[k], leg[k] ** 2, leg[k] ** 3]
         later_work[k] = 0.0 if charges else later_work[k + 1] + own[k]
     asked = np.array([_percent(s.asked or s.work, rules) for s in some])
-    return _Ahead(rules=rules, back_m=back, asked=asked, later=later[:, 1:], work=own + later_work[1:])
+    home = np.array([s.step is not None and s.step.kind == "exit" for s in some], dtype=bool)
+    return _Ahead(rules=rules, back_m=back, asked=asked, later=later[:, 1:], work=own + later_work[1:], ends=home)
 
 
 def charges_needed(some: Sequence[GuardedStep], rules: RechargeRules) -> ChargesNeeded:

@@ -4,6 +4,9 @@ Before each visit the charge must suffice, with a small accepted probability of 
 and the way from there to the charger, or for everything that is left. Otherwise the robot charges first, if from a
 charged battery the visit is possible. So it never leaves for a place from which the charger would be out of reach, and
 every charge makes at least one visit possible.
+
+A leg can take several times its mean. The charge must therefore also suffice, almost certainly, to stay above the level
+at which the robot stops: far from the charger it leaves earlier than the reserve alone would ask for.
 """
 
 from __future__ import annotations
@@ -34,6 +37,12 @@ Floats = NDArray[np.float64]
 
 #: Fraction of the accepted probability of falling below the reserve that one stretch between two charges may use.
 STRETCH_SHARE = 0.1
+
+#: Accepted probability of falling to the stop level on one stretch between two charges.
+STOP_CHANCE = 5e-5
+
+#: Fraction of the charge that the reserve leaves for visits; keeping off the stop level takes no more of it than that.
+STOP_SHARE = 0.5
 
 #: Charge in percent that charging must gain at least; below that, the robot does not go to the charger.
 LEAST_GAIN_PERCENT = 5.0
@@ -72,6 +81,7 @@ class RechargeRules:
         robot: Profile with the battery model.
         charger: Place of the charger.
         reserve_percent: Charge that must be left on arrival at the charger and at the end.
+        stop_percent: Charge at which the robot stops wherever it is.
         below_percent: Charge below which the robot charges although the next visit would still fit; 0 for none.
         until_percent: Charge up to which it charges.
         as_needed: True to end charging earlier if the charge suffices for everything that is left.
@@ -86,6 +96,7 @@ class RechargeRules:
     robot: RobotProfile
     charger: Place
     reserve_percent: float
+    stop_percent: float
     below_percent: float
     until_percent: float
     as_needed: bool
@@ -101,17 +112,33 @@ class RechargeRules:
         """Return the charge that one charging adds at most."""
         return max(LEAST_GAIN_PERCENT, self.until_percent - self.reserve_percent)
 
-    def needed(self, sums: Sequence[ArrayLike], work_percent: ArrayLike, *, charged: bool = False) -> Floats:
+    def needed(
+        self,
+        sums: Sequence[ArrayLike],
+        work_percent: ArrayLike,
+        *,
+        charged: bool = False,
+        ends: ArrayLike = False,
+    ) -> Floats:
         """Return the charge in percent that suffices for a route with the accepted probability, elementwise.
+
+        It keeps the reserve, and keeps the battery almost certainly above the stop level. For the latter it rises at
+        most by :data:`STOP_SHARE` of the way to a charged battery, so that far places remain worth the way.
 
         Args:
             sums: Sums of the leg lengths in metres, of their squares and of their cubes.
             work_percent: Charge that the work along the route takes.
-            charged: True to allow the probability that is tolerated from a charged battery.
+            charged: True to allow the probability that is tolerated from a charged battery, and keep the reserve only.
+            ends: True where the route is the way home, before which only the reserve counts.
         """
+        work = np.asarray(work_percent, dtype=np.float64)
         metres = self.longest(sums, self.tolerated if charged else self.accepted)
-        found: Floats = self.reserve_percent + metres * self.per_metre + np.asarray(work_percent, dtype=np.float64)
-        return found
+        found: Floats = self.reserve_percent + metres * self.per_metre + work
+        if charged:
+            return found
+        surely = self.stop_percent + self.longest(sums, STOP_CHANCE) * self.per_metre + work
+        most = found + STOP_SHARE * np.maximum(0.0, self.until_percent - found)
+        return np.where(np.asarray(ends), found, np.maximum(found, np.minimum(surely, most)))
 
     def longest(self, sums: Sequence[ArrayLike], chance: float) -> Floats:
         """Return the metres that the cost of a route exceeds with a given probability, elementwise.
@@ -123,16 +150,15 @@ class RechargeRules:
         first, squares, cubes = (np.asarray(s, dtype=np.float64) for s in sums)
         second, third = cost_model(self.robot).cumulants()
         variance = second * squares
-        skewness = np.divide(
-            third * cubes, variance**1.5, out=np.zeros_like(variance), where=np.asarray(variance > 0.0)
-        )
+        scale = variance**1.5
+        skewness = np.divide(third * cubes, scale, out=np.zeros_like(variance), where=np.asarray(scale > 0.0))
         found: Floats = first + np.sqrt(variance) * np.interp(skewness, _SKEWNESS, _quantiles(chance))
         return found
 
-    def needed_for(self, way: RouteCost, *, charged: bool = False, docks: bool = False) -> float:
+    def needed_for(self, way: RouteCost, *, charged: bool = False, docks: bool = False, ends: bool = False) -> float:
         """Return the charge in percent that suffices for one route, as :meth:`needed`; with docking at its end."""
         work = self.robot.percent(0.0, way.work.seconds, way.work.joules) + way.work.metres * self.per_metre
-        return float(self.needed(way.sums, work + docks * self.dock_percent, charged=charged))
+        return float(self.needed(way.sums, work + docks * self.dock_percent, charged=charged, ends=ends))
 
     def must_charge(
         self, charge_percent: ArrayLike, enough_percent: ArrayLike, *, ends: bool = False
@@ -180,6 +206,7 @@ def recharge_rules(task: Task, site: Site, robot: RobotProfile) -> RechargeRules
         robot=robot,
         charger=charger,
         reserve_percent=reserve_percent(constraints, robot),
+        stop_percent=robot.energy.levels(reserve_percent(constraints, robot)).stop,
         below_percent=(constraints.recharge_below_percent or 0.0) if constraints.recharge else 0.0,
         until_percent=charge_target(constraints, robot),
         as_needed=constraints.recharge_until_percent is None,
@@ -277,7 +304,7 @@ def charge_cycle(rules: RechargeRules, task: Task, drives: Drives) -> ChargeCycl
     around_s = detour_m / speed_of(task.constraints, robot) + charging.around_s
     percent = robot.percent(detour_m, around_s, charging.around_j)
     half_m = detour_m / 2.0
-    floor = float(rules.needed([half_m, half_m**2, half_m**3], percent / 2.0))
+    floor = float(rules.needed([half_m, half_m**2, half_m**3], percent / 2.0, ends=True))
     return ChargeCycle(
         detour_m=detour_m,
         around_s=around_s,
