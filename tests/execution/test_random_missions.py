@@ -24,6 +24,7 @@ from fieldhand.execution.drivers.simulation.world import (
 )
 from fieldhand.execution.guard import NoGuard
 from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
+from fieldhand.forecast.slow_ground import slow_ground
 from fieldhand.forecast.visit_order import drives_for
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.task.event_lines import from_json, to_json
@@ -36,12 +37,13 @@ from support.missions.rig import Rig, husky, of_type, orchard
 
 
 def with_possible_ways(task: Task) -> Task:
-    """Return a Task without the places to keep away from if the orchard lacks one, as no approval allows."""
+    """Return a Task without the places to avoid, or to pass slowly, if the orchard lacks one, as no approval allows."""
     site, robot = orchard(), husky()
     try:
         drives_for(site, robot, task.constraints)
+        slow_ground(task.constraints, site, robot)
     except PlaceError:
-        return replace(task, constraints=replace(task.constraints, avoid=(), only_gates=()))
+        return replace(task, constraints=replace(task.constraints, avoid=(), only_gates=(), slow=()))
     return task
 
 

@@ -23,7 +23,7 @@ from typer.testing import CliRunner
 from fieldhand import mission, missions
 from fieldhand.approval.authorize import EveryWarning
 from fieldhand.cli.app import assemble
-from fieldhand.cli.demo import REQUEST
+from fieldhand.cli.demo import MISSIONS, DemoName
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.ros2 import robot_connection
 from fieldhand.execution.drivers.ros2.robot_connection import connected_robot
@@ -170,7 +170,7 @@ def test_the_demo_goes_as_in_simulation(tmp_path: Path) -> None:
     """The budget of distance is just enough for some of the visits; robot and mission live on one time, so that what is
     decided depends on no process that waits for its turn."""
     husky = str(patient(tmp_path, type="nav2_msgs/action/NavigateThroughPoses"))
-    plan = Plan.of(REQUEST, robot=husky, seed=7)
+    plan = Plan.of(MISSIONS[DemoName.PICTURES].request, robot=husky, seed=7)
     with connected_simulated_robot("demo", husky, plan.approved.task, seed=plan.seed, tick_s=0.5) as (vehicle, far):
         there = plan.carried_out_by(vehicle, tmp_path)
         made = [place for name, place in far.state["made"] if name.endswith("take_picture")]
