@@ -67,19 +67,144 @@ PLANNED = [
         "photograph the kale, but drive less than 200 m",
         "for Where(crop, eq, kale): [picture] | distance_m 200",
     ),
+    (
+        GARDEN,
+        AMIGA,
+        "photograph either end of bed 2 and of bed 5",
+        (
+            "for UnionOf(InRow(1, 1, of UnionOf(Rows(2, 2)+Rows(5, 5)))+InRow(-1, -1, of UnionOf(Rows(2, "
+            "2)+Rows(5, 5)))): [picture]"
+        ),
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        "photograph either end of beds 2 and 5",
+        (
+            "for UnionOf(InRow(1, 1, of UnionOf(Rows(2, 2)+Rows(5, 5)))+InRow(-1, -1, of UnionOf(Rows(2, "
+            "2)+Rows(5, 5)))): [picture]"
+        ),
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        "photograph either end of bed 2 and bed 5",
+        (
+            "for UnionOf(InRow(1, 1, of UnionOf(Rows(2, 2)+Rows(5, 5)))+InRow(-1, -1, of UnionOf(Rows(2, "
+            "2)+Rows(5, 5)))): [picture]"
+        ),
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        "photograph either end of bed 2 and either end of bed 5",
+        (
+            "for UnionOf(InRow(1, 1, of UnionOf(Rows(2, 2)+Rows(5, 5)))+InRow(-1, -1, of UnionOf(Rows(2, "
+            "2)+Rows(5, 5)))): [picture]"
+        ),
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        "photograph either end of each bed",
+        "for UnionOf(InRow(1, 1, of Rows)+InRow(-1, -1, of Rows)): [picture]",
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        "soil moisture at either end of the potato beds",
+        (
+            "for UnionOf(InRow(1, 1, of Rows(of Where(crop, eq, potato)))+InRow(-1, -1, of Rows(of "
+            "Where(crop, eq, potato)))): [moisture]"
+        ),
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        ("measure nitrate at six plants of bed 2, then go to whichever came out lowest and take a leaf from it"),
+        "for Take(6, of Rows(2, 2)): [nitrate = r1]; go ByReading(r1, soil_nitrate, True); sample_leaf",
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        "measure nitrate at six plants of bed 2, then sample a leaf from whichever was highest",
+        "for Take(6, of Rows(2, 2)): [nitrate = r1]; sample_leaf @ ByReading(r1, soil_nitrate)",
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        "measure nitrate at six plants of bed 2 and photograph whichever of them turned out lowest",
+        "for Take(6, of Rows(2, 2)): [nitrate = r1]; picture @ ByReading(r1, soil_nitrate, True)",
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        "measure moisture at six plants of bed 2, then photograph whichever is driest",
+        "for Take(6, of Rows(2, 2)): [moisture = r1]; picture @ ByReading(r1, soil_moisture, True)",
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        "measure moisture at six plants of bed 2, then photograph the one that was highest",
+        "for Take(6, of Rows(2, 2)): [moisture = r1]; picture @ ByReading(r1, soil_moisture)",
+    ),
+    (
+        GLASSHOUSE,
+        HUSKY,
+        "a thermal picture of the five melons with the lowest moisture on our list",
+        "for Top(moisture, 5, True, of Where(crop, eq, melon)): [picture]",
+    ),
+    (
+        GLASSHOUSE,
+        HUSKY,
+        "thermal pictures of the three aubergines with the highest moisture in our records",
+        "for Top(moisture, 3, of Where(crop, eq, aubergine)): [picture]",
+    ),
+    (
+        GLASSHOUSE,
+        HUSKY,
+        "thermal pictures of the melons with a moisture below 26 on record",
+        "for Where(moisture, lt, 26, of Where(crop, eq, melon)): [picture]",
+    ),
+    (
+        GLASSHOUSE,
+        HUSKY,
+        "thermal pictures of the 4 driest melons going by our records",
+        "for Top(moisture, 4, True, of Where(crop, eq, melon)): [picture]",
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        "measure moisture halfway along bed 3 and photograph every radish in it",
+        "moisture @ Middle(of Rows(3, 3)); for Where(crop, eq, radish, of Rows(3, 3)): [picture]",
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        "measure moisture at the last plant of bed 2, then photograph each potato in it",
+        "moisture @ InRow(-1, -1, of Rows(2, 2)); for Where(crop, eq, potato, of Rows(2, 2)): [picture]",
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        "measure moisture halfway along bed 3. Over 40 percent, take a picture of every radish in it",
+        (
+            "moisture @ Middle(of Rows(3, 3)) = r1; if r1 > 40 percent: [for Where(crop, eq, radish, of "
+            "Rows(3, 3)): [picture]]"
+        ),
+    ),
 ]
 
 ASKED = [
     (GARDEN, AMIGA, "photograph any bean", 2),
+    (GARDEN, AMIGA, "photograph either end of bed 2", 2),
+    (GARDEN, AMIGA, "sample a leaf from the tall ones in bed 4", 2),
+    (GARDEN, AMIGA, "photograph the tall beans", 2),
+    (GARDEN, AMIGA, "photograph the short squashes", 2),
 ]
 
 REFUSED = [
-    (
-        GARDEN,
-        AMIGA,
-        "photograph the kale, shorter than 200 m",
-        "'shorter than 200 m' does not fit at this point in 'photograph the kale, shorter than 200 m'",
-    ),
+    (GARDEN, AMIGA, "photograph the kale, shorter than 200 m", "'shorter than 200 m'"),
     (
         GARDEN,
         AMIGA,
@@ -89,8 +214,8 @@ REFUSED = [
     (
         GARDEN,
         AMIGA,
-        "photograph any of the beans that are shorter than 43 cm",
-        "'that are shorter than' does not fit at this point in 'photograph any of the beans that are shorter than 43 cm'",
+        "photograph any of the beans that are under 43 cm",
+        "'photograph any of the beans that are under 43 cm': it is not clear what is measured, and where",
     ),
     (
         GLASSHOUSE,
@@ -104,17 +229,27 @@ REFUSED = [
         "take a thermal picture of the mint plants that are shorter than 3 m",
         "'shorter than': this site records no height of its trees",
     ),
+    (GLASSHOUSE, HUSKY, "a thermal picture of any aubergine under 20 cm", "'under 20 cm'"),
+    (GARDEN, AMIGA, "photograph the kale within 20 cm", "'within 20 cm'"),
     (
-        GLASSHOUSE,
-        HUSKY,
-        "a thermal picture of any aubergine under 20 cm",
-        "'under 20 cm' does not fit at this point in 'a thermal picture of any aubergine under 20 cm'",
+        GARDEN,
+        AMIGA,
+        "photograph whichever came out lowest",
+        "'photograph whichever came out lowest': nothing before it measures that",
+    ),
+    (GLASSHOUSE, HUSKY, "thermal pictures of five melons on our list", "'on our list'"),
+    (GLASSHOUSE, HUSKY, "a thermal picture of the tall melons", "'of the tall melons'"),
+    (
+        GARDEN,
+        AMIGA,
+        "measure moisture halfway along bed 3 and photograph every radish there",
+        "'photograph every radish there': it is not clear where that is",
     ),
     (
         GARDEN,
         AMIGA,
-        "photograph the kale within 20 cm",
-        "'within 20 cm' does not fit at this point in 'photograph the kale within 20 cm'",
+        "measure moisture at plant V33 and photograph every radish in it",
+        "'photograph every radish in it': it is not clear where that is",
     ),
 ]
 
