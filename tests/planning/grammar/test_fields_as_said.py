@@ -193,6 +193,48 @@ PLANNED = [
             "Rows(3, 3)): [picture]]"
         ),
     ),
+    (
+        PASTURE,
+        TRACTOR,
+        "mow the long pasture except the cowslip patch",
+        "mow area Excluding(InZone(cowslip patch), of InZone(long pasture))",
+    ),
+    (
+        PASTURE,
+        TRACTOR,
+        "mow the long pasture but not the cowslip patch",
+        "mow area Excluding(InZone(cowslip patch), of InZone(long pasture))",
+    ),
+    (
+        PASTURE,
+        TRACTOR,
+        "mow the long pasture. Leave the cowslip patch standing",
+        "mow area Excluding(InZone(cowslip patch), of InZone(long pasture))",
+    ),
+    (
+        PASTURE,
+        TRACTOR,
+        "mow the long pasture and leave the cowslip patch uncut, and keep 5 metres off the pond",
+        "mow area Excluding(InZone(cowslip patch), of InZone(long pasture)) | avoid InZone(pond) 5 m",
+    ),
+    (
+        PASTURE,
+        TRACTOR,
+        "cut the long pasture, but leave the cowslip patch and the boggy corner as they are",
+        "mow area Excluding(UnionOf(InZone(cowslip patch)+InZone(boggy corner)), of InZone(long pasture))",
+    ),
+    (
+        PASTURE,
+        TRACTOR,
+        "mow the long pasture without touching the boggy corner",
+        "mow area Excluding(InZone(boggy corner), of InZone(long pasture))",
+    ),
+    (
+        PASTURE,
+        TRACTOR,
+        "Time to mow the long pasture. Leave out the cowslip patch.",
+        "mow area Excluding(InZone(cowslip patch), of InZone(long pasture))",
+    ),
 ]
 
 ASKED = [
@@ -251,6 +293,7 @@ REFUSED = [
         "measure moisture at plant V33 and photograph every radish in it",
         "'photograph every radish in it': it is not clear where that is",
     ),
+    (PASTURE, TRACTOR, "leave the cowslip patch standing", "each word is known, but not what they say together"),
 ]
 
 
