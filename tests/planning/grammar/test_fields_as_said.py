@@ -235,6 +235,59 @@ PLANNED = [
         "Time to mow the long pasture. Leave out the cowslip patch.",
         "mow area Excluding(InZone(cowslip patch), of InZone(long pasture))",
     ),
+    (
+        PASTURE,
+        AMIGA,
+        (
+            "try six random spots on the bank for moisture; should the average come out over 45 percent, do "
+            "six more in the boggy corner"
+        ),
+        (
+            "for PointsIn(bank, 6, True): [moisture = r1]; if mean(r1 > 45 percent): [for PointsIn(boggy "
+            "corner, 6, True): [moisture]]"
+        ),
+    ),
+    (
+        PASTURE,
+        AMIGA,
+        (
+            "moisture at six random spots in the boggy corner; if the average is over 45 percent, do six "
+            "more on the bank"
+        ),
+        (
+            "for PointsIn(boggy corner, 6, True): [moisture = r1]; if mean(r1 > 45 percent): [for "
+            "PointsIn(bank, 6, True): [moisture]]"
+        ),
+    ),
+    (
+        PASTURE,
+        AMIGA,
+        "nitrate at four random spots on the bank, then four more in the boggy corner",
+        "for PointsIn(bank, 4, True): [nitrate]; for PointsIn(boggy corner, 4, True): [nitrate]",
+    ),
+    (
+        PASTURE,
+        AMIGA,
+        "nitrate at four spots on the bank, then four more spots in the boggy corner",
+        "for PointsIn(bank, 4): [nitrate]; for PointsIn(boggy corner, 4): [nitrate]",
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        "moisture at three random plants in bed 2, then three more readings in bed 3",
+        "for RandomSample(3, of Rows(2, 2)): [moisture]; for RandomSample(3, 1, of Rows(3, 3)): [moisture]",
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        "moisture at three random plants in bed 2; if the mean is below 20 percent, do three more in bed 3",
+        (
+            "for RandomSample(3, of Rows(2, 2)): [moisture = r1]; if mean(r1 < 20 percent): [for "
+            "RandomSample(3, 1, of Rows(3, 3)): [moisture]]"
+        ),
+    ),
+    (GARDEN, AMIGA, "try three plants of bed 4 for nitrate", "for Take(3, of Rows(4, 4)): [nitrate]"),
+    (GARDEN, AMIGA, "try every radish for moisture at 20 cm", "for Where(crop, eq, radish): [moisture(depth_cm 20)]"),
 ]
 
 ASKED = [
@@ -294,6 +347,12 @@ REFUSED = [
         "'photograph every radish in it': it is not clear where that is",
     ),
     (PASTURE, TRACTOR, "leave the cowslip patch standing", "each word is known, but not what they say together"),
+    (
+        PASTURE,
+        AMIGA,
+        "moisture at six random spots on the bank; if the average is over 45 percent, take six more",
+        "'if the average is over 45 percent': it is not clear at which of them this is done",
+    ),
 ]
 
 

@@ -75,6 +75,7 @@ from fieldhand.planning.selections import (
     as_in_row,
     as_some,
     counts_in_row,
+    drawn_like,
     from_nearest_row,
     is_end_of_site,
     is_one_row,
@@ -139,6 +140,8 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
             message("it is not clear whether each of those is meant, or each tree of the site", context="fault")
         )
     place, things = fitted(setting, place, things, command.relation, command.used)
+    if state.where is not None and any(one.more and (one.count or 0) > 1 for one in command.things):
+        place = replace(place, selector=drawn_like(place.selector, state.where.selector))
     if place.shape == "one":
         return capture_once(state, replace(command, things=things), place, said, at_said)
     state = replace(state, loop=None)
