@@ -288,6 +288,78 @@ PLANNED = [
     ),
     (GARDEN, AMIGA, "try three plants of bed 4 for nitrate", "for Take(3, of Rows(4, 4)): [nitrate]"),
     (GARDEN, AMIGA, "try every radish for moisture at 20 cm", "for Where(crop, eq, radish): [moisture(depth_cm 20)]"),
+    (
+        GARDEN,
+        AMIGA,
+        "nitrate in both potato beds, four spots in each, nicely spread out",
+        "for Quota(row, 4, of Rows(of Where(crop, eq, potato))): [nitrate]",
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        "stick the nitrate probe in both potato beds, three spots in each",
+        "for Quota(row, 3, of Rows(of Where(crop, eq, potato))): [nitrate]",
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        "photograph four evenly spread plants in each potato bed",
+        "for Quota(row, 4, of Rows(of Where(crop, eq, potato))): [picture]",
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        "soil moisture at three spots in each of beds 2 and 4, well spread",
+        "for Quota(row, 3, of UnionOf(Rows(2, 2)+Rows(4, 4))): [moisture]",
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        "soil moisture in beds 2 and 4, three plants each",
+        "for Quota(row, 3, of UnionOf(Rows(2, 2)+Rows(4, 4))): [moisture]",
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        "photograph bed 2 and bed 4, at three plants in each",
+        "for Quota(row, 3, of UnionOf(Rows(2, 2)+Rows(4, 4))): [picture]",
+    ),
+    (
+        PASTURE,
+        AMIGA,
+        "nitrate on the bank and in the boggy corner, four spots in each, well spread out",
+        "for UnionOf(PointsIn(bank, 4)+PointsIn(boggy corner, 4)): [nitrate]",
+    ),
+    (
+        PASTURE,
+        AMIGA,
+        "nitrate on the bank and in the boggy corner, four readings in each",
+        "for UnionOf(PointsIn(bank, 4)+PointsIn(boggy corner, 4)): [nitrate]",
+    ),
+    (
+        PASTURE,
+        AMIGA,
+        ("what's the average nitrate on the bank, and in the boggy corner? Four spots in each should do, well spread."),
+        "for UnionOf(PointsIn(bank, 4)+PointsIn(boggy corner, 4)): [nitrate]",
+    ),
+    (
+        PASTURE,
+        AMIGA,
+        "what's the average soil moisture on the bank? Five readings should do, well spread.",
+        "for PointsIn(bank, 5): [moisture]",
+    ),
+    (
+        GLASSHOUSE,
+        HUSKY,
+        "co2 in the hot bay and in the mild bay, five readings in each, well spread",
+        "for UnionOf(Spread(5, of InZone(hot bay))+Spread(5, of InZone(mild bay))): [co2]",
+    ),
+    (
+        GLASSHOUSE,
+        HUSKY,
+        "co2 in the hot bay and the mild bay, five readings in each",
+        "for UnionOf(Spread(5, of InZone(hot bay))+Spread(5, of InZone(mild bay))): [co2]",
+    ),
 ]
 
 ASKED = [
@@ -352,6 +424,12 @@ REFUSED = [
         AMIGA,
         "moisture at six random spots on the bank; if the average is over 45 percent, take six more",
         "'if the average is over 45 percent': it is not clear at which of them this is done",
+    ),
+    (
+        PASTURE,
+        AMIGA,
+        "what's the average nitrate on the bank and in the boggy corner? Four spots should be enough",
+        "this site records no plants: every tree",
     ),
 ]
 
