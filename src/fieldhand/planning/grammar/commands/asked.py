@@ -111,7 +111,8 @@ def so_many_readings(things: tuple[Thing, ...]) -> Spots | None:
 
 
 @construction(
-    "spots: one=spots [COMMA] EVENLYSPACED", "spots: one=spots [COMMA] SPREADOUT", "spots: one=spots [COMMA] SPREADHERE",
+    "spots: one=spots [COMMA] EVENLYSPACED", "spots: one=spots [COMMA] SPREADOUT",
+    "spots: one=spots [COMMA] SPREADHERE",
     "spots: one=spots [COMMA] how=parameter", "spots: one=spots [COMMA] [AND] REMAINS",
     "spots: one=spots [COMMA] TELLSUS",
     cost=0.1,
