@@ -360,6 +360,47 @@ PLANNED = [
         "co2 in the hot bay and the mild bay, five readings in each",
         "for UnionOf(Spread(5, of InZone(hot bay))+Spread(5, of InZone(mild bay))): [co2]",
     ),
+    (
+        PASTURE,
+        TRACTOR,
+        "mow the long pasture but leave the cowslips standing",
+        "mow area Excluding(InZone(cowslip patch), of InZone(long pasture))",
+    ),
+    (PASTURE, AMIGA, "soil nitrate at five spots in the cowslips", "for PointsIn(cowslip patch, 5): [nitrate]"),
+    (GARDEN, AMIGA, "soil moisture in the roses", "moisture @ PointsIn(rose bed)"),
+    (
+        PASTURE,
+        AMIGA,
+        (
+            "walk a W over the long pasture with fifteen nitrate readings on the way, without setting a "
+            "wheel in the cowslips"
+        ),
+        "for Transect(15, long pasture): [nitrate] | avoid InZone(cowslip patch)",
+    ),
+    (
+        PASTURE,
+        AMIGA,
+        "soil moisture on the bank, and don't set foot in the boggy corner",
+        "moisture @ PointsIn(bank) | avoid InZone(boggy corner)",
+    ),
+    (
+        PASTURE,
+        AMIGA,
+        "nitrate on the bank, without straying into the cowslips",
+        "nitrate @ PointsIn(bank) | avoid InZone(cowslip patch)",
+    ),
+    (
+        GLASSHOUSE,
+        HUSKY,
+        ("what's the average co2 in the hot bay, and in the mild one? Five readings in each should do, well spread"),
+        "for UnionOf(Spread(5, of InZone(hot bay))+Spread(5, of InZone(mild bay))): [co2]",
+    ),
+    (
+        GLASSHOUSE,
+        HUSKY,
+        "keep out of the hot bay and read co2 at five places in the mild one",
+        "for PointsIn(mild bay, 5): [co2] | avoid InZone(hot bay)",
+    ),
 ]
 
 ASKED = [
@@ -431,6 +472,7 @@ REFUSED = [
         "what's the average nitrate on the bank and in the boggy corner? Four spots should be enough",
         "this site records no plants: every tree",
     ),
+    (PASTURE, TRACTOR, "mow the daisies", "not understood: 'daisies'"),
 ]
 
 
