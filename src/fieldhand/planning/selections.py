@@ -261,6 +261,15 @@ def is_drawn(selector: s.Selector) -> bool:
     return isinstance(selector, s.RandomSample)
 
 
+def drawn_like(some: s.Selector, before: s.Selector) -> s.Selector:
+    """Return some places as places that are drawn at random, if those before them are: "six more on the slope"."""
+    if not (isinstance(before, s.RandomSample) or (isinstance(before, s.PointsIn) and before.random)):
+        return some
+    if isinstance(some, s.PointsIn) and some.count > 1:
+        return replace(some, random=True)
+    return s.RandomSample(count=some.count, of=some.of) if isinstance(some, s.Take) else some
+
+
 def as_corners(selector: s.Selector) -> s.Corners | None:
     """Return the selector if it selects corner trees, None otherwise."""
     return selector if isinstance(selector, s.Corners) else None

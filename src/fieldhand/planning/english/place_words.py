@@ -13,6 +13,10 @@ from fieldhand.site.model import Site
 _SHORT = 1.7
 #: Price of a short name that is a word for the site as well ("the paddock"): which of the two is asked.
 _OR_THE_SITE = 0.8
+#: Heads of names of ground on which the plants before them grow: "the orchids" of the orchid patch.
+_GROWN = frozenset({"patch", "bed", "strip", "border", "plot", "corner", "garden", "clump", "stand"})
+#: Words that tell trees apart as well as places: "the north one".
+_COMPASS = frozenset({"north", "east", "south", "west", "northern", "eastern", "southern", "western"})
 #: Maximum number of places that may be meant by one short name; more are none of them.
 _MOST = 5
 
@@ -43,6 +47,10 @@ def short_names(site: Site) -> Iterator[tuple[Phrase, NameEntry]]:
     for name, words in named.items():
         if len(words) == 2 and words[-1] in vocabulary()["plants"]["containers"] and (words[0],) not in whole:
             yield words[:1], NameEntry(kind="ZONE", value=name, cost=_SHORT)
+        if len(words) == 2 and words[-1] in _GROWN and (grown := (plural_of(words[0]),)) not in whole:
+            yield grown, NameEntry(kind="ZONE", value=name, cost=_SHORT)
+        if len(words) == 2 and len(heads.get(words[-1], ())) > 1 and words[0] not in _COMPASS:
+            yield (words[0], "one"), NameEntry(kind="ZONE", value=name, cost=_SHORT)
         if len(words) == 2:
             for owner in {f"{words[0]}'s", f"{words[0]}s'", f"{words[0]}s", words[0].removesuffix("s")} - {words[0]}:
                 yield (owner, words[1]), NameEntry(kind="ZONE", value=name)

@@ -137,6 +137,7 @@ class PlaceMeaning:
         one_tree: True for "that tree", which is none of several places.
         beside: True for a place near one that was spoken of ("the tree closest to it").
         there: True if the phrase says that they are in the area spoken of ("every tree there").
+        inside: True if it says so of the row in which the place before it is ("every lettuce in it").
         per: Rows of each of which the selector says something by itself ("the oldest tree of each row").
         fault: Why the site cannot have it, for ``nowhere``.
         vague: Attribute by which they are chosen if neither a number nor a value was given ("the oldest trees").
@@ -151,6 +152,7 @@ class PlaceMeaning:
     at_most: int | None = None
     in_order: bool = False
     there: bool = False
+    inside: bool = False
     itself: bool = False
     one_tree: bool = False
     beside: bool = False

@@ -16,6 +16,7 @@ from fieldhand.planning.grammar.commands import (
     events,
     exclusions,
     headings,
+    kept_ground,
     laps,
     limits,
     pace,
@@ -37,7 +38,7 @@ GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
     exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, earlier,
-    work_wanted, laps, headings, asked,
+    work_wanted, laps, headings, asked, kept_ground,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

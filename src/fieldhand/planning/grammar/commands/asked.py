@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.naming import Naming
@@ -32,6 +32,7 @@ class AskedArea:
 
     things: tuple[Thing, ...]
     where: s.Selector
+    more: s.Selector | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,10 +42,12 @@ class Spots:
     Attributes:
         count: Number of places.
         how: Parameter of the captures.
+        each: True if there are as many in each of several areas.
     """
 
     count: int
     how: ParameterValue | None = None
+    each: bool = False
 
 
 @construction(
@@ -74,6 +77,22 @@ def what_is_the_mean(things: tuple[Thing, ...], where: s.Selector) -> AskedArea 
 
 
 @construction(
+    "asked: one=asked [COMMA] AND in_ more=region", "asked: one=asked [COMMA] AND OF more=region",
+    "asked: one=asked [COMMA] AND more=region",
+    cost=0.1,
+)  # fmt: skip
+def and_of_another(one: AskedArea, more: s.Selector) -> AskedArea | None:
+    """Compose "what is the average soil moisture in the slope and in the wet corner"."""
+    return replace(one, more=more) if one.more is None and one.where != more else None
+
+
+@construction("spots: one=spots INEACH", cost=0.1)
+def spots_in_each(one: Spots) -> Spots | None:
+    """Compose "twelve spots in each"."""
+    return None if one.each else replace(one, each=True)
+
+
+@construction(
     "spots: [TAKE] n=count POINT", "spots: [TAKE] n=count TREE", "spots: [TAKE] n=count READING",
     "spots: [MEASURE] [AT] n=count POINT", "spots: [MEASURE] [AT] n=count TREE",
     "spots: [TAKE] n=count READING AT n2=count POINT",
@@ -92,7 +111,8 @@ def so_many_readings(things: tuple[Thing, ...]) -> Spots | None:
 
 
 @construction(
-    "spots: one=spots [COMMA] EVENLYSPACED", "spots: one=spots [COMMA] SPREADHERE",
+    "spots: one=spots [COMMA] EVENLYSPACED", "spots: one=spots [COMMA] SPREADOUT",
+    "spots: one=spots [COMMA] SPREADHERE",
     "spots: one=spots [COMMA] how=parameter", "spots: one=spots [COMMA] [AND] REMAINS",
     "spots: one=spots [COMMA] TELLSUS",
     cost=0.1,
@@ -101,7 +121,7 @@ def spots_that(one: Spots, how: ParameterValue | None = None) -> Spots | None:
     """Compose "twelve spots spread out evenly, 10 cm deep, should tell us"."""
     if how is None:
         return one
-    return Spots(one.count, how) if one.how is None else None
+    return replace(one, how=how) if one.how is None else None
 
 
 @construction(
@@ -116,14 +136,22 @@ def spots_tell(asked: AskedArea, spots: Spots, used: int, site: Site, robot: Rob
         things = tuple(one for one in made if one is not None)
         if len(things) < len(made):
             return None
-    where, count = asked.where, spots.count
+    areas = [asked.where] if asked.more is None else [asked.where, asked.more]
+    if spots.each != (len(areas) > 1):
+        return None
+    parts = [_spread_over(where, spots.count, site) for where in areas]
+    if any(part is None for part in parts):
+        return None
+    kept = tuple(part for part in parts if part is not None)
+    selector = kept[0] if len(kept) == 1 else s.UnionOf(parts=kept)
+    return CaptureCommand(things, PlaceMeaning(selector, "several", count=spots.count * len(kept)), used)
+
+
+def _spread_over(where: s.Selector, count: int, site: Site) -> s.Selector | None:
+    """Return so many places spread over an area; None if something is left out of ground that has no plants."""
     ground = bare_ground(where, site)
     if ground is not None:
-        selector: s.Selector = s.PointsIn(zone=ground.zone, count=count)
-        if ground.left_out:
-            return None
-    elif are_rows(where) and is_one_row(where):
-        selector = s.Evenly(count=count, of=where)
-    else:
-        selector = s.Spread(count=count, of=where)
-    return CaptureCommand(things, PlaceMeaning(selector, "several", count=count), used)
+        return None if ground.left_out else s.PointsIn(zone=ground.zone, count=count)
+    if are_rows(where) and is_one_row(where):
+        return s.Evenly(count=count, of=where)
+    return s.Spread(count=count, of=where)

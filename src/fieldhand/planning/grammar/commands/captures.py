@@ -252,6 +252,20 @@ def _kind_of(verb: Lex | None) -> Literal["", "look", "sample"]:
     return "look" if "looks" in features else "sample" if "samples" in features else ""
 
 
+@construction(
+    "capture: TAKE n=count MORE in_ where=region", "capture: n=count MORE in_ where=region",
+    "capture: TAKE n=count MORE in_ where=rows", "capture: n=count MORE in_ where=rows",
+    cost=1.0,
+)  # fmt: skip
+def so_many_more_there(n: int, where: s.Selector, used: int) -> CaptureCommand | None:
+    """Compose "do six more on the slope"."""
+    if n < 2:
+        return None
+    return CaptureCommand(
+        (Thing(LAST_THING, count=n, plural=True, more=True),), PlaceMeaning(where, "area"), used, relation="in"
+    )
+
+
 @construction("capture: verb=TAKE place=place", cost=1.2)
 def do_the_rest(verb: Lex, place: PlaceMeaning, used: int) -> CaptureCommand | None:
     """Compose "do the rest", where the same is captured."""

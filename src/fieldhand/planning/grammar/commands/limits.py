@@ -26,12 +26,14 @@ GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
 _LIMITED = ("metres", "seconds", "percent")
+#: Shortest distance that a limit is about, in metres.
+_LEAST_DRIVEN = 1.0
 
 
 @construction("less: word=UPTO", "less: word=CMP", cost=0.0)
 def less(word: Lex) -> str | None:
-    """Compose "less than"."""
-    return "less" if word.value in (None, "UPTO") or word.value[0] in ("lt", "le") else None
+    """Compose "less than"; "shorter than" and "younger than" tell of plants, not of the mission."""
+    return "less" if word.value in (None, "UPTO", ("lt", ""), ("le", "")) else None
 
 
 @construction("of_what: [OF] [DET] BATTERY", "of_what: [AT] LIMIT", "of_what: [OF] DRIVEN", cost=0.1)
@@ -52,13 +54,18 @@ def of_what() -> str:
 )
 def at_most(most: Amount, bound: Lex | None = None) -> Amount | None:
     """Compose "no more than 500 m of driving", "20 minutes tops" and "half an hour or less"."""
-    return most if most.unit in _LIMITED and (bound is None or bound.value == ("le", "")) else None
+    return most if _is_limit(most) and (bound is None or bound.value == ("le", "")) else None
 
 
 @construction("so_much: most=at_most", "so_much: most=amount", "so_much: most=amount of_what", cost=0.1)
 def so_much(most: Amount) -> Amount | None:
     """Compose an amount where it can only be the largest one ("within 20 minutes")."""
-    return most if most.unit in _LIMITED else None
+    return most if _is_limit(most) else None
+
+
+def _is_limit(most: Amount) -> bool:
+    """Return True for an amount that can limit a mission; 20 cm is no distance that a robot drives."""
+    return most.unit in _LIMITED and not (most.unit == "metres" and most.number < _LEAST_DRIVEN)
 
 
 @construction(
@@ -86,7 +93,7 @@ def so_much(most: Amount) -> Amount | None:
 )
 def limited_to(most: Amount, used: int) -> LimitClause | None:
     """Compose "within 500 m", "it must take no more than 20 minutes" and "time limit: 20 minutes"."""
-    return LimitClause(most, False, used) if most.unit in _LIMITED else None
+    return LimitClause(most, False, used) if _is_limit(most) else None
 
 
 @construction(

@@ -97,6 +97,12 @@ def on_grid(on: tuple[float, s.Selector | None], site: Site) -> Adjunct:
     return Adjunct(_on_grid, _Cells(*on, site), may_lead=True, lays_out=True)
 
 
+@construction("adjunct: every=each_way", cost=0.2, given=("site",))
+def each_way(every: float, site: Site) -> Adjunct:
+    """Compose "one probe every 25 m each way"."""
+    return on_grid((every, None), site)
+
+
 # Paths and grids that are laid first, and what is done there.
 
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from fieldhand.planning.english.naming import Naming
+from fieldhand.planning.english.naming import Naming, split
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import LAST_THING, UNSAID_THING, Thing
 from fieldhand.planning.grammar.words import Lex
+from fieldhand.robot.model import RobotProfile
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -77,6 +78,7 @@ def readings_of(n: int, noun: Lex) -> Thing | None:
     "thing: n=count ONE",
     "thing: n=count READING",
     "thing: n=count more=MORE READING",
+    "thing: n=count more=MORE POINT",
     "thing: more=ANOTHER n=count [READING]",
     "thing: more=IT [THERE] n=more_times",
     cost=1.5,
@@ -104,6 +106,14 @@ def unsaid_reading(reading: Lex, n: int | None = None, word: Lex | None = None) 
     if word is not None and ("indefinite" not in word.features or reading.plural):
         return None
     return Thing(UNSAID_THING, count=n, plural=reading.plural)
+
+
+@construction("thing: [DET] noun=SOILTEST", "thing: n=count noun=SOILTEST", cost=0.3, given=("robot",))
+def soil_test(noun: Lex, robot: RobotProfile, n: int | None = None) -> list[Thing] | None:
+    """Compose "a soil test", which may be each of the readings that the robot takes of soil."""
+    plural = noun.text.endswith("s")
+    names = [one.name for one in robot.actions if one.measures and "soil" in split(one.name)]
+    return [Thing(name, count=n, plural=plural) for name in names] or None
 
 
 @construction("thing: IT AGAIN", "thing: DET SAME", cost=0.5)

@@ -75,6 +75,7 @@ from fieldhand.planning.selections import (
     as_in_row,
     as_some,
     counts_in_row,
+    drawn_like,
     from_nearest_row,
     is_end_of_site,
     is_one_row,
@@ -139,6 +140,8 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
             message("it is not clear whether each of those is meant, or each tree of the site", context="fault")
         )
     place, things = fitted(setting, place, things, command.relation, command.used)
+    if state.where is not None and any(one.more and (one.count or 0) > 1 for one in command.things):
+        place = replace(place, selector=drawn_like(place.selector, state.where.selector))
     if place.shape == "one":
         return capture_once(state, replace(command, things=things), place, said, at_said)
     state = replace(state, loop=None)
@@ -313,6 +316,14 @@ def _depends(state: DialogueState) -> bool:
     return state.captured is not None and is_conditional(state.captured[len(state.scope) :])
 
 
+def _row_spoken_of(state: DialogueState) -> s.Selector | None:
+    """Return the row in which the last place is, if its words name one: "halfway along bed 7"."""
+    if state.where is None or state.where.shape != "one":
+        return None
+    rows = {part for part in state.where.selector.walk() if are_rows(part) and is_one_row(part)}
+    return rows.pop() if len(rows) == 1 else None
+
+
 def _place_of(
     setting: Setting, state: DialogueState, command: CaptureCommand
 ) -> tuple[PlaceMeaning | None, DialogueState, Spans]:
@@ -324,9 +335,11 @@ def _place_of(
         before = Lead(command.within, 0)
     if place is not None and place.there:
         area = state.within if before is None and state.within is not None else None
-        if area is None and (before is None or before.place.shape != "area"):
+        if area is None and before is None and place.inside and (row := _row_spoken_of(state)) is not None:
+            place = replace(place, inside=False, selector=over(place.selector, row))
+        elif area is None and (before is None or before.place.shape != "area"):
             raise NotComposed(message("it is not clear where that is", context="fault"))
-        place = replace(place, there=False)
+        place = replace(place, there=False, inside=False)
     if before is None:
         place = of_each_before(state, place)
         place = _contrasted(setting, state, place, command.used)

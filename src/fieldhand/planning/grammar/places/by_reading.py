@@ -125,6 +125,31 @@ def where_most(most: Lex | None = None, noun: Lex | None = None, warm: Lex | Non
     return [places_read(name, 1, lowest=_EXTREMES[most.value]) for name in _names(noun)]
 
 
+@construction(
+    "place: word=ANY [OFTHEM] [WHICH] IS [DET] most=STATISTIC [noun=NOUN]",
+    "place: word=ANY [OFTHEM] [WHICH] IS [DET] warm=MOSTREAD",
+    "place: word=ANY ONE [OFTHEM] IS [DET] most=STATISTIC", "place: word=ANY ONE [OFTHEM] IS [DET] warm=MOSTREAD",
+    "place: word=ANY TREE IS [DET] most=STATISTIC", "place: word=ANY TREE IS [DET] warm=MOSTREAD",
+    "place: word=ANY POINT IS [DET] most=STATISTIC", "place: word=ANY POINT IS [DET] warm=MOSTREAD",
+    "place: word=ANY HAVE [DET] most=STATISTIC noun=NOUN", "place: word=ANY HAVE [DET] most=STATISTIC READING",
+    "place: word=ANY TREE HAVE [DET] most=STATISTIC noun=NOUN",
+    "place: word=ANY TREE HAVE [DET] most=STATISTIC READING",
+    "place: word=DET [several=ONE] WHICH IS [DET] most=STATISTIC",
+    "place: word=DET several=TREE WHICH IS [DET] most=STATISTIC",
+    "place: word=DET most=STATISTIC ONE", "place: word=DET most=STATISTIC OFTHEM",
+    "place: word=DET most=STATISTIC OFTHEALL",
+    cost=0.4,
+)  # fmt: skip
+def whichever_was_most(
+    word: Lex, most: Lex | None = None, warm: Lex | None = None, noun: Lex | None = None, several: Lex | None = None
+) -> list[PlaceMeaning] | None:
+    """Compose "whichever came out lowest" and "the one that was highest"."""
+    free, one = "free_choice" in word.features, "definite" in word.features
+    if not (free or one) or (several is not None and (several.plural or "plural" in several.features)):
+        return None
+    return where_most(most, noun, warm)
+
+
 def _names(noun: Lex | None) -> list[str]:
     """Return the quantities of a noun; an empty name if there is none."""
     if noun is None:

@@ -74,6 +74,22 @@ def either_end(rows: s.Selector, noun: Lex | None = None) -> list[PlaceMeaning] 
 
 
 @construction(
+    "place: ANY noun=FINISH in_ rows=rows", "place: ANY noun=FINISH in_ rows=rows AND in_ then=rows",
+    "place: ANY noun=FINISH in_ rows=rows AND then=rows", "place: ANY noun=FINISH in_ rows=each_row",
+    "place: ANY noun=FINISH in_ rows=rows AND ANY FINISH in_ then=rows",
+    cost=0.1,
+)  # fmt: skip
+def either_end_of_several(rows: s.Selector, noun: Lex, then: s.Selector | None = None) -> PlaceMeaning | None:
+    """Compose "either end of beds 5 and 8" and "either end of bed 5 and of bed 8", the two ends of each."""
+    if then is not None:
+        rows = s.UnionOf(parts=(*rows.members, *then.members))
+    if noun.plural or not are_rows(rows) or is_one_row(rows):
+        return None
+    ends = tuple(s.InRow(first=at, last=at, of=rows) for at in (1, -1))
+    return PlaceMeaning(s.UnionOf(parts=ends), "several")
+
+
+@construction(
     "place: word=DET [ODD] noun=ROW",
     "place: word=DET EVEN noun=ROW",
     "place: word=DET OTHER noun=ROW",

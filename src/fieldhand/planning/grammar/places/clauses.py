@@ -175,6 +175,18 @@ def chosen_with(chosen: Chosen, clause: Clause) -> Chosen | None:
     return None if inner is None else replace(chosen, inner=inner)
 
 
+@construction("chosen: chosen=chosen [COMMA] ONRECORD", cost=0.1)
+def as_recorded(chosen: Chosen) -> Chosen | None:
+    """Compose "five peppers with the lowest moisture on our list": what the site's file says of its plants."""
+    return chosen if chosen.choice is not None and chosen.choice.by == "best" else None
+
+
+@construction("relative: clause=relative [COMMA] ONRECORD", cost=0.1)
+def recorded_clause(clause: Clause) -> Clause | None:
+    """Compose "with a moisture below 30 on our list"."""
+    return clause if all(trait.test is not None for trait in clause) else None
+
+
 @construction("place: whole=place clause=relative", cost=0.3)
 def those_with_attribute(whole: PlaceMeaning, clause: Clause) -> PlaceMeaning | None:
     """Compose "every third tree in row 4 that is yellow"."""

@@ -318,7 +318,8 @@ def of_them_there(whole: PlaceMeaning, word: Lex | None = None, it: Lex | None =
         return None
     if whole.shape != "several" or whole.per is not None:
         return None
-    return replace(whole, there=True) if chooses_from_trees(whole.selector) else None
+    inside = word is not None and "inside" in word.features
+    return replace(whole, there=True, inside=inside) if chooses_from_trees(whole.selector) else None
 
 
 @construction("each_kind: EACH kind=ATTR", cost=0.0)

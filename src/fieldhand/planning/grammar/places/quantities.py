@@ -29,7 +29,7 @@ class Determiner:
         n: Number, if it is given.
     """
 
-    kind: Literal["", "the", "a", "some", "that", "any", "whichever", "each", "all"] = ""
+    kind: Literal["", "the", "a", "some", "that", "any", "any such", "whichever", "each", "all"] = ""
     n: int | None = None
 
 
@@ -47,11 +47,12 @@ def number(n: int) -> Determiner:
     return Determiner("", n)
 
 
-@construction("quantity: word=ANY [DET]", "quantity: word=ANY n=count", "quantity: ATLEAST n=count", cost=0.1)
-def any_of(word: Lex | None = None, n: int | None = None) -> Determiner:
+@construction("quantity: word=ANY [of=DET]", "quantity: word=ANY n=count", "quantity: ATLEAST n=count", cost=0.1)
+def any_of(word: Lex | None = None, n: int | None = None, of: Lex | None = None) -> Determiner:
     """Compose "any" and "at least three"."""
-    free = word is not None and "free_choice" in word.features
-    return Determiner("whichever" if free else "any", n)
+    features = frozenset() if word is None else word.features
+    such = "any_such" in features and n is None and of is None
+    return Determiner("whichever" if "free_choice" in features else "any such" if such else "any", n)
 
 
 @construction("quantity: word=EACH [DET] [n=count]", cost=0.0)
@@ -65,10 +66,16 @@ def quantified(quantity: Determiner, inner: Nominal, site: Site) -> list[PlaceMe
     """Compose "the three yellow trees", "any tree of row 4" and "every corner"."""
     kind, n = quantity.kind, quantity.n
     if inner.single:
-        return [PlaceMeaning(inner.selector, "one")] if n in (None, 1) and kind not in ("any", "each", "all") else None
+        return (
+            [PlaceMeaning(inner.selector, "one")]
+            if n in (None, 1) and kind not in ("any", "any such", "each", "all")
+            else None
+        )
     if kind in ("each", "all"):
         return _all_of(quantity, inner, site)
-    if kind in ("any", "whichever"):
+    if kind == "any such" and inner.tested and not inner.complete:
+        return [PlaceMeaning(inner.selector, "several", each=True)]  # "any leeks that are shorter than 20 cm"
+    if kind in ("any", "any such", "whichever"):
         return _any_of(n, inner, site)
     if n is not None:
         return _so_many(quantity, n, inner, site)

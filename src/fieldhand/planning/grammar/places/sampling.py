@@ -360,6 +360,15 @@ def on_grid(every: float) -> float:
 
 
 @construction(
+    "each_way: [DET] [READING] EACH far=amount EACHWAY", "each_way: n=count READING EACH far=amount EACHWAY",
+    cost=0.0,
+)  # fmt: skip
+def so_far_each_way(far: Amount, n: int = 1) -> float | None:
+    """Compose "one probe every 25 m each way"."""
+    return far.number if n == 1 and far.unit == "metres" and far.number > 0 else None
+
+
+@construction(
     "grid_over: every=on_grid OVER where=region",
     "grid_over: every=on_grid OPPOSITE where=region",
     "grid_over: every=on_grid in_ where=region",

@@ -14,6 +14,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.chosen import Choice
 from fieldhand.planning.grammar.places.compass import CORNERS
+from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.places.numbers import VAGUE_NUMBERS
 from fieldhand.planning.grammar.words import Lex, hinted_attributes
 from fieldhand.planning.selections import as_top, chooses_from_trees, swapped
@@ -67,6 +68,12 @@ def vaguely(word: Lex, inner: Nominal) -> tuple[Nominal, tuple[str, bool], str] 
     return (inner, word.value, "") if word.value[0] != "=" and _can_be_ranked(inner) else None
 
 
+@construction("vague: [DET] word=VAGUEADJ noun=ONE in_ where=region", cost=0.0)
+def vague_ones_there(word: Lex, noun: Lex, where: s.Selector) -> tuple[Nominal, tuple[str, bool], str] | None:
+    """Compose "the tall ones in bed 3"."""
+    return vaguely(word, Nominal(where, plural="plural" in noun.features)) if chooses_from_trees(where) else None
+
+
 @construction(
     "vague: word=VAGUEADJ [DASH] attribute=ATTR inner=nominal",
     "vague: inner=nominal WITH [DET] word=VAGUEADJ attribute=ATTR",
@@ -96,7 +103,7 @@ def from_some_value_on(said: tuple[Nominal, tuple[str, bool], str], site: Site) 
             vague=name,
         )
         for name in _attributes(said, site)
-        for value in _thresholds(name, site, lowest=lowest)
+        for value in _thresholds(name, site, inner.selector, lowest=lowest)
     ]
     return found or None
 
@@ -127,9 +134,22 @@ def _numbers(attribute: str, site: Site) -> list[float]:
     return sorted(value for value in found if isinstance(value, float))
 
 
-def _thresholds(attribute: str, site: Site, *, lowest: bool) -> Sequence[float]:
-    """Return rounded values below which (or above which) some of the trees are, the fewest first."""
-    values = _numbers(attribute, site)
+def _thresholds(attribute: str, site: Site, among: s.Selector, *, lowest: bool) -> Sequence[float]:
+    """Return rounded values below which (or above which) some of the trees are, the fewest first.
+
+    They are those of all trees, unless no tree of a group is beyond them: then they are the group's.
+    """
+    found = _shares(_numbers(attribute, site), lowest=lowest)
+    own = ids_of(among, site) or set()
+    there = [tree.properties.get(attribute) for tree in site.trees if tree.place.id in own]
+    values = sorted(value for value in there if isinstance(value, float))
+    if not values or (values[0] < found[0] if lowest else values[-1] > found[0]):
+        return found
+    return _shares(values, lowest=lowest)
+
+
+def _shares(values: list[float], *, lowest: bool) -> list[float]:
+    """Return rounded values beyond which some of others are, the fewest first."""
     if not lowest:
         values.reverse()
     rounded = (float(f"{values[round(share * (len(values) - 1))]:.2g}") for share in _SHARES)

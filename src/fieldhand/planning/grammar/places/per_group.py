@@ -1,0 +1,98 @@
+"""Constructions of so many places in each of several beds or zones: "both beds, four spots in each, spread out"."""
+
+from __future__ import annotations
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import PlaceMeaning
+from fieldhand.planning.grammar.places.sampling import bare_points
+from fieldhand.planning.selections import are_rows, as_zone, is_one_row
+from fieldhand.site.model import Site
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+
+@construction("evenly_there: EVENLYSPACED", "evenly_there: SPREADOUT", "evenly_there: FARAPART", cost=0.0)
+def evenly_there() -> str:
+    """Compose "nicely spread out"."""
+    return "evenly"
+
+
+@construction("spots_there: TREE", "spots_there: POINT", "spots_there: SAMPLINGPOINT", cost=0.0)
+def spots_there() -> str:
+    """Compose "spots" of "four spots in each"."""
+    return "spots"
+
+
+@construction(
+    "in_each: n=count spots_there INEACH [COMMA] [evenly_there]",
+    "in_each: n=count evenly_there spots_there INEACH",
+    "in_each: n=count INEACH [COMMA] evenly_there",
+    "in_each: n=count READING INEACH [COMMA] evenly_there",
+    "in_each: n=count evenly_there READING INEACH",
+    "in_each: AT share=in_each",
+    cost=0.0,
+)
+def so_many_in_each(n: int | None = None, share: int | None = None) -> int | None:
+    """Compose "four spots in each, nicely spread out"."""
+    return share if n is None else n
+
+
+@construction(
+    "place: rows=rows [COMMA] n=in_each", "place: rows=each_row [COMMA] n=in_each",
+    "place: rows=rows AND [in_] more=rows [COMMA] n=in_each",
+    cost=0.1,
+)  # fmt: skip
+def of_rows_so_many_each(rows: s.Selector, n: int, more: s.Selector | None = None) -> PlaceMeaning | None:
+    """Compose "both cabbage beds, four spots in each"."""
+    if more is not None:
+        rows = s.UnionOf(parts=(*rows.members, *more.members))
+    return _of_each_row(n, rows)
+
+
+@construction(
+    "place: n=count evenly_there spots_there in_ rows=each_row",
+    "place: n=count spots_there in_ rows=each_row [COMMA] evenly_there",
+    "place: n=count spots_there [COMMA] evenly_there [COMMA] in_ rows=each_row",
+    cost=0.1,
+)
+def evenly_in_each_row(n: int, rows: s.Selector) -> PlaceMeaning | None:
+    """Compose "four evenly spread plants in each cabbage bed"."""
+    return _of_each_row(n, rows)
+
+
+@construction("place: n=count POINT in_ rows=each_row", cost=0.2)
+def points_in_each_row(n: int, rows: s.Selector) -> PlaceMeaning | None:
+    """Compose "four spots in each cabbage bed"."""
+    return _of_each_row(n, rows)
+
+
+def _of_each_row(n: int, rows: s.Selector) -> PlaceMeaning | None:
+    """Return so many plants of each of some rows, spread along it."""
+    if not are_rows(rows) or is_one_row(rows):
+        return None
+    return PlaceMeaning(s.Quota(per="row", count=n, of=rows), "several")
+
+
+@construction("grounds: first=region AND [in_] then=region", cost=0.0)
+def grounds(first: s.Selector, then: s.Selector) -> tuple[s.Selector, ...] | None:
+    """Compose "the wet corner and on the slope"."""
+    both = (*first.members, *then.members)
+    return both if all(as_zone(one) is not None for one in both) and first != then else None
+
+
+@construction("grounds: first=region COMMA rest=grounds", cost=0.0)
+def more_grounds(first: s.Selector, rest: tuple[s.Selector, ...]) -> tuple[s.Selector, ...] | None:
+    """Compose "the wet corner, the bank and on the slope"."""
+    return (first, *rest) if as_zone(first) is not None and first not in rest else None
+
+
+@construction(
+    "place: areas=grounds [COMMA] n=in_each", "place: areas=grounds [COMMA] [AT] n=count READING INEACH",
+    cost=0.1, given=("site",),
+)  # fmt: skip
+def of_grounds_so_many_each(areas: tuple[s.Selector, ...], n: int, site: Site) -> PlaceMeaning:
+    """Compose "the wet corner and on the slope, four spots in each"."""
+    parts = tuple(bare_points(one, site, n) or s.Spread(count=n, of=one) for one in areas)
+    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=n * len(parts))
