@@ -17,6 +17,7 @@ from fieldhand.planning.grammar.commands import (
     exclusions,
     headings,
     laps,
+    left_standing,
     limits,
     pace,
     parameters,
@@ -37,7 +38,7 @@ GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
     exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, earlier,
-    work_wanted, laps, headings, asked,
+    work_wanted, laps, headings, asked, left_standing,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

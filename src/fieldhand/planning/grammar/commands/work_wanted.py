@@ -48,6 +48,20 @@ def wanted_work(verb: Lex, where: Tract, used: int, robot: RobotProfile) -> list
 
 
 @construction(
+    "work: CAUSE where=tract on=AT verb=work_name",
+    "work: TAKE where=tract on=AT verb=work_name",
+    "work: WORKV where=tract on=AT verb=work_name",
+    cost=0.1,
+    given=("robot",),
+)
+def recorded_work(verb: Lex, on: Lex, where: Tract, used: int, robot: RobotProfile) -> list[WorkCommand] | None:
+    """Compose "get row 4 on video"."""
+    implement = robot.action[verb.value].implement
+    records = "on_record" in on.features and implement is not None and not implement.covers
+    return work(verb, used, robot, where) if records else None
+
+
+@construction(
     "work_rate: [AT] amount=amount",
     "work_rate: WITH amount=amount",
     "work_rate: USE amount=amount",

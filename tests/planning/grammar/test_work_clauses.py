@@ -1,0 +1,88 @@
+"""Clauses around work in fields: what is left standing, up and down, both sides in turn, the end of a mission."""
+
+from __future__ import annotations
+
+import pytest
+
+from fieldhand.planning.english.planner import EnglishPlanner
+from fieldhand.planning.planner import Clarify, Planned, Refused
+from fieldhand.robot.loader import load_robot
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.loader import open_site
+from fieldhand.site.model import Site
+from planning.english.outlines import outline
+from support.sites.gardens import glasshouse, pasture, vegetable_garden
+
+DEMO, GARDEN, GLASSHOUSE, PASTURE = open_site("demo"), vegetable_garden(), glasshouse(), pasture()
+HUSKY, AMIGA, TRACTOR = load_robot("husky"), load_robot("amiga"), load_robot("tractor")
+WITHOUT_COWSLIPS = "mow area Excluding(InZone(cowslip patch), of InZone(long pasture))"
+
+PLANNED = [
+    (PASTURE, TRACTOR, "Mow the long pasture. Leave the cowslip patch standing.", WITHOUT_COWSLIPS),
+    (PASTURE, TRACTOR, "Mow the long pasture but leave the cowslip patch uncut", WITHOUT_COWSLIPS),
+    (PASTURE, TRACTOR, "Leave the cowslip patch standing and mow the long pasture.", WITHOUT_COWSLIPS),
+    (PASTURE, TRACTOR, "Mow the long pasture. Skip the cowslip patch.", WITHOUT_COWSLIPS),
+    (PASTURE, TRACTOR, "Mow the long pasture, but don't mow the cowslip patch.", WITHOUT_COWSLIPS),
+    (PASTURE, TRACTOR, "Time to cut the long pasture. Leave out the cowslip patch.", WITHOUT_COWSLIPS),
+    (PASTURE, TRACTOR, "Mow the long pasture and leave the cowslip patch as it is.", WITHOUT_COWSLIPS),
+    (DEMO, TRACTOR, "spray rows 3 to 8. Skip row 5.", "spray rows Excluding(Rows(5, 5), of Rows(3, 8))"),
+    (DEMO, TRACTOR, "spray rows 3 to 8 but leave row 5 alone", "spray rows Excluding(Rows(5, 5), of Rows(3, 8))"),
+    (
+        DEMO,
+        TRACTOR,
+        "photograph row 3 and spray rows 4 to 8, but leave out row 5",
+        "for Rows(3, 3): [picture]; spray rows Excluding(Rows(5, 5), of Rows(4, 8))",
+    ),
+    (PASTURE, TRACTOR, "mow the bank up and down", "mow area InZone(bank)"),
+    (PASTURE, TRACTOR, "mow the bank back and forth", "mow area InZone(bank)"),
+    (PASTURE, TRACTOR, "mow the bank, up and down north to south", "mow area InZone(bank), heading north_south"),
+    (PASTURE, TRACTOR, "mow the bank back and forth, east to west", "mow area InZone(bank), heading east_west"),
+    (PASTURE, TRACTOR, "mow the bank. Go to and fro from east to west.", "mow area InZone(bank), heading east_west"),
+    (PASTURE, TRACTOR, "mow the bank north-south, up and down", "mow area InZone(bank), heading north_south"),
+    (DEMO, TRACTOR, "film row 3, down one side and back up the other", "film rows Rows(3, 3), both"),
+    (DEMO, TRACTOR, "film row 3, one side and then the other", "film rows Rows(3, 3), both"),
+    (DEMO, TRACTOR, "spray row 3 on one side and back on the other side", "spray rows Rows(3, 3), both"),
+    (DEMO, TRACTOR, "film row 3. Go up one side and down the other.", "film rows Rows(3, 3), both"),
+    (DEMO, TRACTOR, "spray one side and the other of row 3", "spray rows Rows(3, 3), both"),
+    (DEMO, TRACTOR, "get row 3 on video", "film rows Rows(3, 3)"),
+    (DEMO, TRACTOR, "I want rows 3 to 5 on film", "film rows Rows(3, 5)"),
+    (DEMO, TRACTOR, "capture row 3 on video, along one side and back along the other", "film rows Rows(3, 3), both"),
+    (PASTURE, TRACTOR, "film all the way round the edge of the bank", "film perimeter InZone(bank)"),
+    (PASTURE, TRACTOR, "film right round the bank", "film perimeter InZone(bank)"),
+    (PASTURE, TRACTOR, "mow the bank, nothing more, and then come home", "mow area InZone(bank)"),
+    (DEMO, TRACTOR, "spray row 3, nothing else, then film row 4", "spray rows Rows(3, 3); film rows Rows(4, 4)"),
+    (DEMO, TRACTOR, "spray row 3 and charge to 80 % at the charger", "spray rows Rows(3, 3); recharge to 80"),
+    (DEMO, TRACTOR, "spray row 3, then charge up to 80 % at the charger", "spray rows Rows(3, 3); recharge to 80"),
+    (DEMO, TRACTOR, "spray row 3, then at the charger charge to 80 %", "spray rows Rows(3, 3); recharge to 80"),
+    (DEMO, HUSKY, "photograph tree 4, back at the start by the end", "picture @ TreeIs(4)"),
+]
+
+REFUSED = [
+    (PASTURE, TRACTOR, "film around the long pasture. Leave the cowslip patch standing."),
+    (DEMO, TRACTOR, "spray rows 3 to 8. Leave row 5 standing."),
+    (DEMO, TRACTOR, "get row 3 on the mower"),
+    (DEMO, TRACTOR, "spray tree 3, down one side and back up the other"),
+]
+
+
+def _name(value: object) -> str:
+    return value if isinstance(value, str) else ""
+
+
+@pytest.mark.parametrize(("site", "robot", "request_", "plan"), PLANNED, ids=_name)
+def test_a_clause_about_work_has_its_plan(site: Site, robot: RobotProfile, request_: str, plan: str) -> None:
+    outcome = EnglishPlanner().plan(request_, site, robot)
+    assert isinstance(outcome, Planned), outcome
+    assert outline(outcome.task).removesuffix(" | return_to_start") == plan
+
+
+@pytest.mark.parametrize(("site", "robot", "request_"), REFUSED, ids=_name)
+def test_a_clause_that_does_not_fit_the_work_is_refused(site: Site, robot: RobotProfile, request_: str) -> None:
+    assert isinstance(EnglishPlanner().plan(request_, site, robot), Refused)
+
+
+def test_what_is_left_standing_of_two_areas_is_asked() -> None:
+    request = "mow the bank, then mow the long pasture. Leave the cowslip patch standing."
+    asked = EnglishPlanner().plan(request, PASTURE, TRACTOR)
+    assert isinstance(asked, Clarify)
+    assert len(asked.choices) == 2
