@@ -54,6 +54,21 @@ PLANNED = [
     (DEMO, TRACTOR, "spray row 3 and charge to 80 % at the charger", "spray rows Rows(3, 3); recharge to 80"),
     (DEMO, TRACTOR, "spray row 3, then charge up to 80 % at the charger", "spray rows Rows(3, 3); recharge to 80"),
     (DEMO, TRACTOR, "spray row 3, then at the charger charge to 80 %", "spray rows Rows(3, 3); recharge to 80"),
+    (
+        DEMO,
+        TRACTOR,
+        "Rows 3 and 4 need treating: spray them at 300 l/ha.",
+        "spray rows UnionOf(Rows(3, 3)+Rows(4, 4)), rate_l_ha 300",
+    ),
+    (DEMO, TRACTOR, "Only row 3 needs attention. Film it from both sides.", "film rows Rows(3, 3), both"),
+    (GLASSHOUSE, TRACTOR, "Only the melons need treating: spray those.", "spray rows Where(crop, eq, melon)"),
+    (
+        GLASSHOUSE,
+        TRACTOR,
+        "Just the aubergines need doing: spray those at 200 l/ha, and hold off as long as somebody is nearby.",
+        "spray rows Where(crop, eq, aubergine), rate_l_ha 200 | return_to_start | at any time person_near: wait, then return_to_start",
+    ),
+    (PASTURE, TRACTOR, "The bank needs seeing to. Mow it.", "mow area InZone(bank)"),
     (DEMO, HUSKY, "photograph tree 4, back at the start by the end", "picture @ TreeIs(4)"),
 ]
 
@@ -61,6 +76,8 @@ REFUSED = [
     (PASTURE, TRACTOR, "film around the long pasture. Leave the cowslip patch standing."),
     (DEMO, TRACTOR, "spray rows 3 to 8. Leave row 5 standing."),
     (DEMO, TRACTOR, "get row 3 on the mower"),
+    (DEMO, TRACTOR, "The yellow trees need treating: spray those at 300 l/ha."),
+    (DEMO, TRACTOR, "Rows 3 and 4 need treating: spray row 5."),
     (DEMO, TRACTOR, "spray tree 3, down one side and back up the other"),
 ]
 

@@ -259,9 +259,16 @@ def work(
     command = WorkCommand(action=verb.value, along=None, mode="rows", used=used, parameters=parameters)
     if where is None:
         return [command]
-    mode = where.mode or ("area" if covers else "rows")
-    if "cuts" in verb.features and mode == "rows":
+    if "cuts" in verb.features and (where.mode or ("area" if covers else "rows")) == "rows":
         return None  # "cut row 4" may be to prune it
+    return along_tract(command, where, robot)
+
+
+def along_tract(command: WorkCommand, where: Tract, robot: RobotProfile) -> list[WorkCommand]:
+    """Return work along a tract, in each way that it may be meant."""
+    implement = robot.action[command.action].implement
+    covers = implement is not None and implement.covers
+    mode = where.mode or ("area" if covers else "rows")
     command = replace(command, along=where.selector, mode=mode, sides=where.sides, every=where.every)
     command = replace(command, optional=where.optional)
     if covers and mode == "rows" and not where.along and where.sides == "one" and not is_one_row(where.selector):
