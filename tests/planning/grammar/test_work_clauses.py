@@ -16,6 +16,7 @@ from support.sites.gardens import glasshouse, pasture, vegetable_garden
 DEMO, GARDEN, GLASSHOUSE, PASTURE = open_site("demo"), vegetable_garden(), glasshouse(), pasture()
 HUSKY, AMIGA, TRACTOR = load_robot("husky"), load_robot("amiga"), load_robot("tractor")
 WITHOUT_COWSLIPS = "mow area Excluding(InZone(cowslip patch), of InZone(long pasture))"
+TO_AND_FRO = "3 times: [go TreeIs(4); picture; go TreeIs(9); picture]"
 
 PLANNED = [
     (PASTURE, TRACTOR, "Mow the long pasture. Leave the cowslip patch standing.", WITHOUT_COWSLIPS),
@@ -113,6 +114,18 @@ PLANNED = [
     (PASTURE, HUSKY, "tell me how warm it is on the bank", "air @ PointsIn(bank)"),
     (PASTURE, HUSKY, "Drive to the boggy corner and measure how cold the air is", "air @ PointsIn(boggy corner)"),
     (DEMO, HUSKY, "go to tree 4 and tell me how warm it is there", "go TreeIs(4); air"),
+    (DEMO, HUSKY, "go back and forth between tree 4 and tree 9 three times with a picture at each one", TO_AND_FRO),
+    (DEMO, HUSKY, "go to and fro between tree 4 and tree 9 for three rounds, taking a picture at each", TO_AND_FRO),
+    (DEMO, HUSKY, "go up and down three times between tree 4 and tree 9 with a picture at both", TO_AND_FRO),
+    (DEMO, HUSKY, "drive between tree 4 and tree 9 three times and take a picture at each one", TO_AND_FRO),
+    (
+        PASTURE,
+        TRACTOR,
+        "from ten tonight go back and forth between the middle gate and the farm gate twice with a photo at each, but "
+        "if it rains go home",
+        "2 times: [go GateIs(middle gate); picture; go GateIs(farm gate); picture]"
+        " | day=today not_before=22:00 | return_to_start | at any time rain: return_to_start",
+    ),
     (DEMO, HUSKY, "photograph tree 4, back at the start by the end", "picture @ TreeIs(4)"),
 ]
 
@@ -121,6 +134,9 @@ REFUSED = [
     (DEMO, TRACTOR, "spray rows 3 to 8. Leave row 5 standing."),
     (DEMO, TRACTOR, "get row 3 on the mower"),
     (DEMO, HUSKY, "tree 4 should be at the start"),
+    (DEMO, HUSKY, "go back and forth between tree 4 and tree 9 with a picture at each"),
+    (DEMO, HUSKY, "go back and forth between the yellow trees three times with a picture at each"),
+    (DEMO, HUSKY, "photograph tree 3. Go back and forth between tree 4 and tree 9 three times with a picture at each."),
     (DEMO, HUSKY, "be at the yellow trees at sunrise"),
     (PASTURE, HUSKY, "do the same on the bank"),
     (DEMO, TRACTOR, "The yellow trees need treating: spray those at 300 l/ha."),
