@@ -100,10 +100,11 @@ class EnglishPhrases:
             if (attribute := self.lexicon.attributes.get(phrase)) is not None:
                 yield attribute
         else:
-            spelt_out = _asked_by_adjective().get(phrase) or in_full
+            asked = _asked_by_adjective().get(phrase)
+            spelt_out = asked or in_full
             full = self.lexicon.entry(spelt_out)
             if full is not None and full.kind == "NOUN":
-                yield replace(full, plural=full.plural or phrase[-1].endswith("s"))
+                yield replace(full, plural=full.plural or (asked is None and phrase[-1].endswith("s")))
             meant = _own()["same"].get(" ".join(phrase))
             same = None if meant is None else self.lexicon.entry(split(meant))
             if same is not None:

@@ -16,8 +16,8 @@ from fieldhand.planning.grammar.commands import (
     events,
     exclusions,
     headings,
-    kept_ground,
     laps,
+    left_standing,
     limits,
     pace,
     parameters,
@@ -27,6 +27,7 @@ from fieldhand.planning.grammar.commands import (
     slow,
     spacing,
     things,
+    to_and_fro,
     waits,
     ways,
     work_wanted,
@@ -38,7 +39,7 @@ GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
     exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, earlier,
-    work_wanted, laps, headings, asked, kept_ground,
+    work_wanted, laps, headings, asked, left_standing, to_and_fro,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

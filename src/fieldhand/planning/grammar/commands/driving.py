@@ -423,6 +423,14 @@ def halt(used: int) -> StopCommand:
     return StopCommand(used)
 
 
+@construction("drive: BEAT [word=AT] place=place", cost=0.8)
+def be_there(place: PlaceMeaning, used: int, word: Lex | None = None) -> DriveCommand | None:
+    """Compose "be at tree 4 (at sunrise and read CO2 there)"."""
+    del word
+    single = place.shape == "one" and not place.optional and place.per is None
+    return DriveCommand(place, used) if single else None
+
+
 @construction("halt: STAY", cost=0.2)
 def stay(used: int) -> StopCommand:
     """Compose "stay there" and "don't come back"."""

@@ -56,7 +56,13 @@ def go_on() -> str:
     return "go on"
 
 
-@construction("charged: charge_it", "charged: charge_it far=charge_far", cost=0.0)
+@construction(
+    "charged: charge_it",
+    "charged: charge_it far=charge_far",
+    "charged: charge_it far=charge_far AT [DET] CHARGER",
+    "charged: AT [DET] CHARGER [COMMA] charge_it [far=charge_far]",
+    cost=0.0,
+)
 def charged(used: int, far: float | None = None) -> RechargeClause:
     """Compose "recharge to 80 %", which is a step of the plan unless more is said."""
     return RechargeClause(used, until=far)

@@ -60,10 +60,12 @@ def axis_in_one_word(word: Lex) -> WorkHeading:
     "lanes: [WITH] [DET] axis=axis LANES",
     "lanes: RUNS [DET] LANES axis=axis",
     "lanes: AT LANES WHICH RUNS axis=axis",
+    "lanes: [GO] TOANDFRO [COMMA] [RUNS] axis=axis",
+    "lanes: axis=axis [COMMA] TOANDFRO",
     cost=0.1,
 )
 def lanes(axis: WorkHeading) -> WorkHeading:
-    """Compose "with the lanes running east to west"."""
+    """Compose "with the lanes running east to west" and "up and down, north to south"."""
     return axis
 
 
@@ -77,6 +79,12 @@ def work_in_lanes(one: WorkCommand, axis: WorkHeading, used: int) -> WorkCommand
     if one.mode != "area" or one.heading != "any":
         return None
     return replace(one, heading=axis, used=used)
+
+
+@construction("work: one=work [COMMA] TOANDFRO", "work: one=work [COMMA] GO TOANDFRO", cost=0.2)
+def work_to_and_fro(one: WorkCommand, used: int) -> WorkCommand | None:
+    """Compose "mow the meadow up and down", as ground is worked anyway."""
+    return replace(one, used=used) if one.mode == "area" else None
 
 
 @construction("work: one=work [COMMA] axis=axis", "work: one=work [COMMA] RUNS axis=axis", cost=0.3)

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.parameters import with_parameter
-from fieldhand.planning.grammar.commands.working import Tract, work
+from fieldhand.planning.grammar.commands.working import Tract, along_tract, work
 from fieldhand.planning.grammar.meaning import Amount, ParameterValue, Thing, WorkCommand
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.robot.implement import rate_unit
@@ -14,6 +14,34 @@ from fieldhand.robot.model import RobotProfile
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
+
+
+@construction("work: verb=WORKV those=DET", "work: verb=WORKV those=DET how=parameter", cost=0.2, given=("robot",))
+def work_along_those(
+    verb: Lex, those: Lex, used: int, robot: RobotProfile, how: ParameterValue | None = None
+) -> list[WorkCommand] | None:
+    """Compose "spray those", of the rows or the area before."""
+    return work(verb, used, robot, how=how) if "stands_for_noun" in those.features else None
+
+
+@construction("in_need: [ONLY] where=tract SHOULD [DET] TREATMENT", cost=0.1)
+def in_need(where: Tract) -> Tract:
+    """Compose "only the Merlot rows need treating"."""
+    return where
+
+
+@construction(
+    "work: where=in_need FULLSTOP one=work",
+    "work: where=in_need COMMA one=work",
+    "work: where=in_need [COMMA] AND one=work",
+    cost=0.2,
+    given=("robot",),
+)
+def work_in_need(where: Tract, one: WorkCommand, used: int, robot: RobotProfile) -> list[WorkCommand] | None:
+    """Compose "only the Merlot rows need treating: spray those at 400 l/ha"."""
+    if one.along is not None or not one.action:
+        return None
+    return along_tract(replace(one, used=used), where, robot)
 
 
 @construction("work_name: verb=WORKV", "work_name: verb=WORKN", cost=0.0)
@@ -45,6 +73,20 @@ def work_name(verb: Lex) -> Lex:
 def wanted_work(verb: Lex, where: Tract, used: int, robot: RobotProfile) -> list[WorkCommand] | None:
     """Compose "row 4 needs spraying", "give row 4 a spray" and "run the mower over the meadow"."""
     return work(verb, used, robot, where)
+
+
+@construction(
+    "work: CAUSE where=tract on=AT verb=work_name",
+    "work: TAKE where=tract on=AT verb=work_name",
+    "work: WORKV where=tract on=AT verb=work_name",
+    cost=0.1,
+    given=("robot",),
+)
+def recorded_work(verb: Lex, on: Lex, where: Tract, used: int, robot: RobotProfile) -> list[WorkCommand] | None:
+    """Compose "get row 4 on video"."""
+    implement = robot.action[verb.value].implement
+    records = "on_record" in on.features and implement is not None and not implement.covers
+    return work(verb, used, robot, where) if records else None
 
 
 @construction(

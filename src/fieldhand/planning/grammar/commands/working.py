@@ -111,7 +111,9 @@ def one_side(side: Lex, rows: s.Selector) -> Tract | None:
     return Tract(rows, "rows", sides=side.value) if side.value in SIDES else None
 
 
-@construction("tract: EACHSIDE OF rows=rows", "tract: part=tract [FROM] EACHSIDE", cost=0.0)
+@construction(
+    "tract: EACHSIDE OF rows=rows", "tract: two_sides OF rows=rows", "tract: part=tract [FROM] EACHSIDE", cost=0.0
+)
 def both_sides(rows: s.Selector | None = None, part: Tract | None = None) -> Tract | None:
     """Compose "both sides of row 4" and "rows 3 to 8 from both sides"."""
     if part is not None:
@@ -257,9 +259,16 @@ def work(
     command = WorkCommand(action=verb.value, along=None, mode="rows", used=used, parameters=parameters)
     if where is None:
         return [command]
-    mode = where.mode or ("area" if covers else "rows")
-    if "cuts" in verb.features and mode == "rows":
+    if "cuts" in verb.features and (where.mode or ("area" if covers else "rows")) == "rows":
         return None  # "cut row 4" may be to prune it
+    return along_tract(command, where, robot)
+
+
+def along_tract(command: WorkCommand, where: Tract, robot: RobotProfile) -> list[WorkCommand]:
+    """Return work along a tract, in each way that it may be meant."""
+    implement = robot.action[command.action].implement
+    covers = implement is not None and implement.covers
+    mode = where.mode or ("area" if covers else "rows")
     command = replace(command, along=where.selector, mode=mode, sides=where.sides, every=where.every)
     command = replace(command, optional=where.optional)
     if covers and mode == "rows" and not where.along and where.sides == "one" and not is_one_row(where.selector):
@@ -294,6 +303,12 @@ def in_laps(one: WorkCommand, n: Lex, used: int) -> WorkCommand | None:
     return replace(one, laps=int(n.value), used=used)
 
 
+@construction("work: one=work [COMMA] THATONLY", cost=0.2)
+def nothing_else(one: WorkCommand, used: int) -> WorkCommand | None:
+    """Compose "mow the meadow, nothing else", before what follows."""
+    return None if one.along is None else replace(one, used=used)
+
+
 @construction("work: one=work [COMMA] ASMANY as_can", cost=0.1)
 def as_much(one: WorkCommand, used: int) -> WorkCommand | None:
     """Compose "spray rows 3 to 8, as much as you can"."""
@@ -309,10 +324,20 @@ def on_one_side(one: WorkCommand, side: Lex, used: int) -> WorkCommand | None:
     return replace(one, sides=side.value, used=used) if fits else None
 
 
-@construction("work: one=work [COMMA] [FROM] EACHSIDE", cost=0.1)
+@construction("two_sides: ONESIDE [COMMA] [AND] [then] OTHERSIDE", cost=0.0)
+def one_side_and_the_other() -> str:
+    """Compose "down one side and back up the other"."""
+    return "both"
+
+
+@construction(
+    "work: one=work [COMMA] [FROM] EACHSIDE", "work: one=work [COMMA] [GO] two_sides",
+    "work: one=work FULLSTOP [GO] two_sides", cost=0.1,
+)  # fmt: skip
 def on_both_sides(one: WorkCommand, used: int) -> WorkCommand | None:
-    """Compose "spray rows 3 to 8 at 300 l/ha from both sides"."""
-    return replace(one, sides="both", used=used) if one.mode == "rows" and one.sides == "one" else None
+    """Compose "spray rows 3 to 8 at 300 l/ha from both sides" and "film row 3, one side and then the other"."""
+    fits = one.mode == "rows" and one.sides == "one" and one.along is not None
+    return replace(one, sides="both", used=used) if fits else None
 
 
 @construction("command: one=work", cost=0.0)

@@ -9,6 +9,7 @@ from typing import Any, cast
 from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.driving import drive, visits
+from fieldhand.planning.grammar.dialogue.other_ground import ground_of, on_ground
 from fieldhand.planning.grammar.dialogue.plans import (
     Path,
     as_choice,
@@ -20,6 +21,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
 )
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, done_at, with_step
 from fieldhand.planning.grammar.meaning import Again, DriveCommand, PlaceMeaning
+from fieldhand.planning.grammar.places.sampling import bare_zone
 from fieldhand.planning.selections import (
     are_rows,
     blocks_of,
@@ -143,7 +145,8 @@ def repeated_in(setting: Setting, state: DialogueState, area: s.Selector, used: 
     """
     steps = state.plan.steps
     area = _of_same_block(area, steps)
-    places = [_place_in(step, area) for step in steps]
+    zone = bare_zone(area, setting.site)
+    places = [ground_of(step) if zone else _place_in(step, area) for step in steps]
     if state.scope or not steps or state.awaits_command:
         raise NotComposed(message("it is not clear what is repeated, and where", context="fault"))
     old = next((place for place in reversed(places) if place is not None), None)
@@ -155,10 +158,11 @@ def repeated_in(setting: Setting, state: DialogueState, area: s.Selector, used: 
     again = steps[first:]
     if old is None or not again or not _can_be_repeated(again):
         raise NotComposed(message("it is not clear what is repeated, and where", context="fault"))
-    if area.relative and (len(again) > 1 or not is_one_row(old)):
+    if area.relative and (len(again) > 1 or isinstance(old, str) or not is_one_row(old)):
         raise NotComposed(message("it is not clear from which tree", context="fault"))
     names, said = _Names(state.readings), setting.spans_of(used)
-    copies = tuple(_renamed(_moved(step, old, area), names, said) for step in again)
+    moved = [on_ground(step, zone) if isinstance(old, str) else _moved(step, old, area) for step in again]
+    copies = tuple(_renamed(step, names, said) for step in moved)
     plan = p.InOrder(id="", steps=(*steps, *copies))
     captured = [path for path, node in walk(plan) if node.act is not None]
     visits = as_for_each(copies[-1])
