@@ -401,6 +401,25 @@ PLANNED = [
         "keep out of the hot bay and read co2 at five places in the mild one",
         "for PointsIn(mild bay, 5): [co2] | avoid InZone(hot bay)",
     ),
+    (
+        PASTURE,
+        AMIGA,
+        "soil moisture on the bank, one probe every 10 metres each way, 10 cm deep",
+        "for Grid(10, bank): [moisture(depth_cm 10)]",
+    ),
+    (
+        PASTURE,
+        AMIGA,
+        "I need soil moisture on the bank, one reading every 10 m in both directions",
+        "for Grid(10, bank): [moisture]",
+    ),
+    (PASTURE, AMIGA, "nitrate in the boggy corner every 8 metres both ways", "for Grid(8, boggy corner): [nitrate]"),
+    (
+        PASTURE,
+        AMIGA,
+        "measure nitrate in the boggy corner every 8 metres each way at 25 cm",
+        "for Grid(8, boggy corner): [nitrate(depth_cm 25)]",
+    ),
 ]
 
 ASKED = [
@@ -409,6 +428,10 @@ ASKED = [
     (GARDEN, AMIGA, "sample a leaf from the tall ones in bed 4", 2),
     (GARDEN, AMIGA, "photograph the tall beans", 2),
     (GARDEN, AMIGA, "photograph the short squashes", 2),
+    (PASTURE, AMIGA, "do a soil test in three places on the bank", 2),
+    (PASTURE, AMIGA, "take a soil reading in the boggy corner", 2),
+    (GARDEN, AMIGA, "soil tests at every radish", 2),
+    (GARDEN, AMIGA, "a soil test at plant V12, 20 cm deep", 2),
 ]
 
 REFUSED = [
@@ -464,7 +487,7 @@ REFUSED = [
         PASTURE,
         AMIGA,
         "moisture at six random spots on the bank; if the average is over 45 percent, take six more",
-        "'if the average is over 45 percent': it is not clear at which of them this is done",
+        "'more'",
     ),
     (
         PASTURE,
@@ -473,6 +496,12 @@ REFUSED = [
         "this site records no plants: every tree",
     ),
     (PASTURE, TRACTOR, "mow the daisies", "not understood: 'daisies'"),
+    (
+        GARDEN,
+        AMIGA,
+        "at plant V12 measure soil moisture. If it is below 20 percent take a picture, otherwise take 2 more",
+        "'more'",
+    ),
 ]
 
 
