@@ -48,6 +48,7 @@ def spared(where: s.Selector) -> s.Selector:
     "left_standing: EXCEPT where=spared",
     "left_standing: where=spared LEFTOUT",
     "left_standing: WITHOUT verb=WORKV where=spared",
+    "left_standing: WITHOUT TOUCHING where=spared",
     cost=0.2,
 )
 def left_standing(where: s.Selector, used: int, word: Lex | None = None, verb: Lex | None = None) -> LeftStanding:
