@@ -170,7 +170,6 @@ KEPT = [
     "I want to know how row 5 is doing, not row 6. Photograph every tree in it.",
     "I want to know whether row 5 is dry, without entering it. Photograph every tree in row 4.",
     "I want to know how much nitrate there is in row 5. Take a picture of every tree in it.",
-    "I want to know what the CO2 is in row 5. Take a picture of every tree in it.",
     "I want to know how row 5 is doing in 20 minutes. Take a picture of every tree in it.",
     "I want to know how row 5 is doing before noon. Take a picture of every tree in it.",
     "We need to know whether only the yellow trees suffer. Photograph every tree.",

@@ -112,6 +112,7 @@ PLANNED = [
     ),
     (PASTURE, HUSKY, "go to the bank and tell me how warm it is there", "air @ PointsIn(bank)"),
     (PASTURE, HUSKY, "tell me how warm it is on the bank", "air @ PointsIn(bank)"),
+    (DEMO, HUSKY, "I want to know what the CO2 is at tree 5. Take a picture there.", "co2 @ TreeIs(5); picture"),
     (PASTURE, HUSKY, "Drive to the boggy corner and measure how cold the air is", "air @ PointsIn(boggy corner)"),
     (DEMO, HUSKY, "go to tree 4 and tell me how warm it is there", "go TreeIs(4); air"),
     (DEMO, HUSKY, "go back and forth between tree 4 and tree 9 three times with a picture at each one", TO_AND_FRO),
