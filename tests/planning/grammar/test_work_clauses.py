@@ -127,6 +127,17 @@ PLANNED = [
         "2 times: [go GateIs(middle gate); picture; go GateIs(farm gate); picture]"
         " | day=today not_before=22:00 | return_to_start | at any time rain: return_to_start",
     ),
+    (DEMO, TRACTOR, "do a lap of the boundary with the side camera on", "film perimeter Trees"),
+    (DEMO, TRACTOR, "drive around the pond with the mower on", "mow perimeter InZone(pond)"),
+    (DEMO, TRACTOR, "drive through every second aisle with the mower down", "mow aisles Trees, every 2"),
+    (DEMO, TRACTOR, "do a lap of the boundary with the side camera on the fence the whole way", "film perimeter Trees"),
+    (
+        DEMO,
+        TRACTOR,
+        "do two laps of the boundary with the side camera running, I think something's been digging under it, and "
+        "come back to the start when you've been round",
+        "film perimeter Trees, 2 laps",
+    ),
     (DEMO, HUSKY, "photograph tree 4, back at the start by the end", "picture @ TreeIs(4)"),
 ]
 
@@ -135,6 +146,9 @@ REFUSED = [
     (DEMO, TRACTOR, "spray rows 3 to 8. Leave row 5 standing."),
     (DEMO, TRACTOR, "get row 3 on the mower"),
     (DEMO, HUSKY, "tree 4 should be at the start"),
+    (DEMO, TRACTOR, "film just inside the pond"),
+    (DEMO, TRACTOR, "do a lap of the wet corner with the side camera on the fence"),
+    (DEMO, TRACTOR, "do a lap of the boundary with the mower on the fence"),
     (DEMO, HUSKY, "go back and forth between tree 4 and tree 9 with a picture at each"),
     (DEMO, HUSKY, "go back and forth between the yellow trees three times with a picture at each"),
     (DEMO, HUSKY, "photograph tree 3. Go back and forth between tree 4 and tree 9 three times with a picture at each."),

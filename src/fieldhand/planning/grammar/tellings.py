@@ -233,8 +233,8 @@ def _may_ask(at: int, said: Sequence[int], known: WordKinds, *, hopes: bool, ask
         return not (known.is_past(k) or before & {"TELLS", "AUXILIARY", "HARMLESS", "IS"})
     if "LAST" in kinds and not follows:
         return False  # "last week"
-    if hopes and kinds & {"BATTERY", "TIMEWORD"}:
-        return False
+    if (hopes and kinds & {"BATTERY", "TIMEWORD"}) or ("AT" in kinds and "IT" in follows):
+        return False  # "something has been digging under it"
     return known.may_be(k, _NEVER) and not _is_age(k, said, known)
 
 

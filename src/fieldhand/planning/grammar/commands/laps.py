@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
+from shapely import unary_union
+
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Adjunct
@@ -13,12 +15,14 @@ from fieldhand.planning.grammar.meaning import Amount, CaptureCommand, Thing, Wo
 from fieldhand.planning.grammar.places.areas import edges
 from fieldhand.planning.grammar.places.sampling import bare_zone, is_keep_out
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import are_rows
+from fieldhand.planning.selections import are_rows, as_zone
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
+#: Greatest part of the ground inside of a fence that the fence takes up, and least part of the site that is inside.
+_THIN, _NEARLY = 0.1, 0.8
 #: Maximum number of laps, and of captures with a rest between them.
 _MOST_LAPS, _MOST_RESTED = 100, 50
 
@@ -48,10 +52,32 @@ def round_along(line: s.Selector) -> Tract:
     return Tract(line, "perimeter")
 
 
-@construction("edge: ALONG fence=region", "edge: AROUND ALONG fence=region", cost=0.2, given=("site",))
+@construction(
+    "edge: ALONG fence=region",
+    "edge: AROUND ALONG fence=region",
+    cost=0.2,
+    given=("site",),
+)
 def along_fence(fence: s.Selector, site: Site) -> Tract | None:
     """Compose "along the deer fence"."""
     return Tract(fence, "perimeter") if is_keep_out(fence, site) else None
+
+
+@construction(
+    "edge: [AROUND] INSIDE fence=region", "edge: [AROUND] ALONG INSIDE fence=region", cost=0.2, given=("site",)
+)
+def inside_fence(fence: s.Selector, site: Site) -> Tract | None:
+    """Compose "just inside the deer fence", which stands around the site; a pond has no such side."""
+    return Tract(fence, "perimeter") if is_keep_out(fence, site) and _goes_around(fence, site) else None
+
+
+def _goes_around(fence: s.Selector, site: Site) -> bool:
+    """Return True for what is thin and stands around nearly the whole site."""
+    zone = as_zone(fence)
+    own = unary_union([one.polygon for one in site.zones if zone is not None and one.name == zone.zone])
+    whole = unary_union([one.polygon for one in site.zones if one.kind == "boundary"])
+    around = own.convex_hull.area
+    return own.area < _THIN * around and around >= _NEARLY * whole.area > 0.0
 
 
 @construction("work: [TAKE] times=laps where=lapped", "work: GO [FOR] times=laps where=lapped", cost=0.2)

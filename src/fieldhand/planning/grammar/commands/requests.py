@@ -345,6 +345,12 @@ def done_first() -> str:
     return "done"
 
 
+@construction("home: way=home [COMMA] done_first", cost=0.3)
+def home_when_that_is_done(way: Home, used: int) -> Home:
+    """Compose "come back when you've been round"."""
+    return replace(way, used=used, when_done=True)
+
+
 @construction("drive: way=drive [COMMA] done_first", cost=0.2)
 def drive_when_done(way: DriveCommand, used: int) -> DriveCommand:
     """Compose "go to the charger when you're finished"."""

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.parameters import with_parameter
 from fieldhand.planning.grammar.commands.working import Tract, along_tract, work
 from fieldhand.planning.grammar.meaning import Amount, ParameterValue, Thing, WorkCommand
+from fieldhand.planning.grammar.places.sampling import is_keep_out
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.robot.implement import rate_unit
 from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -87,6 +90,37 @@ def recorded_work(verb: Lex, on: Lex, where: Tract, used: int, robot: RobotProfi
     implement = robot.action[verb.value].implement
     records = "on_record" in on.features and implement is not None and not implement.covers
     return work(verb, used, robot, where) if records else None
+
+
+@construction(
+    "work: one=work [COMMA] WITH [DET] verb=WORKN",
+    "work: one=work [COMMA] WITH [DET] verb=WORKN RUNNING",
+    "work: one=work [COMMA] USE [DET] verb=WORKN",
+    cost=0.3,
+)
+def driven_with(one: WorkCommand, verb: Lex, used: int) -> WorkCommand | None:
+    """Compose "two laps of the boundary with the camera on"."""
+    known = not one.action and one.along is not None
+    return replace(one, action=str(verb.value), used=used) if known else None
+
+
+@construction(
+    "work: one=work [COMMA] WITH [DET] verb=WORKN AT [DET] EDGE [COMMA] [WHOLETIME]",
+    "work: one=work [COMMA] WITH [DET] verb=WORKN AT aim=region [COMMA] [WHOLETIME]",
+    cost=0.3,
+    given=("robot", "site"),
+)
+def driven_with_aim(
+    one: WorkCommand, verb: Lex, used: int, robot: RobotProfile, site: Site, aim: s.Selector | None = None
+) -> WorkCommand | None:
+    """Compose "a lap along the deer fence with the camera on the fence": a camera at one side faces the edge."""
+    made = driven_with(one, verb, used)
+    if made is None or made.mode != "perimeter" or made.along is None or aim not in (None, made.along):
+        return None
+    implement = robot.action[made.action].implement
+    sideways = implement is not None and implement.side in ("left", "right")
+    of_edge = made.along == s.Trees() or is_keep_out(made.along, site)
+    return made if sideways and of_edge else None
 
 
 @construction(
