@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 import shapely
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import dijkstra
@@ -192,6 +192,9 @@ def test_no_path_crosses_a_keep_out_or_the_boundary_and_lengths_agree(world, cle
 
 @settings(max_examples=12, deadline=None)
 @given(grounds())
+@example(
+    ([Polygon([(3, 3), (-2, 6), (-6, 3), (-2, 0)]), box(-13, -3, -7, 5)], None, [(0.0, 1.0), (-4.0, 5.0), (0.0, 0.0)])
+)
 def test_lengths_agree_with_a_dense_grid_search(world):
     shapes, _, xy = world
     blocked = shapely.union_all(shapes)
@@ -205,7 +208,12 @@ def test_lengths_agree_with_a_dense_grid_search(world):
     shortest = grid_search(blocked, a, b)
     # paths on a 16-connected grid are at most 2.8 % longer than in the plane, and their ends are off by a cell
     assert way.length_m <= shortest + 2.0
-    assert shortest <= 1.03 * way.length_m + 4.0
+    # and the grid may miss a gap that is narrower than its cells, through which no path with room to spare leads
+    try:
+        roomy = ground(*shapes, clearance=1.5).between(spot(*a), spot(*b))
+    except DriveFault:
+        return
+    assert shortest <= 1.03 * roomy.length_m + 4.0
 
 
 def grid_search(blocked, a, b, cell: float = 1.0) -> float:
