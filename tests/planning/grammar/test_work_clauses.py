@@ -19,6 +19,19 @@ WITHOUT_COWSLIPS = "mow area Excluding(InZone(cowslip patch), of InZone(long pas
 TO_AND_FRO = "3 times: [go TreeIs(4); picture; go TreeIs(9); picture]"
 
 PLANNED = [
+    (
+        PASTURE,
+        AMIGA,
+        "Read the soil moisture on a grid of points 20 m apart over the long pasture.",
+        "for Grid(20, long pasture): [moisture]",
+    ),
+    (
+        PASTURE,
+        AMIGA,
+        "Measure soil moisture at random spots on the bank until the mean is known to within 2 percent,"
+        " with a maximum of 12",
+        "for PointsIn(bank, 12, True) at most 12 until mean(r1) +- 2 % from 5: [moisture = r1]",
+    ),
     (PASTURE, TRACTOR, "Mow the long pasture. Leave the cowslip patch standing.", WITHOUT_COWSLIPS),
     (PASTURE, TRACTOR, "Mow the long pasture but leave the cowslip patch uncut", WITHOUT_COWSLIPS),
     (PASTURE, TRACTOR, "Leave the cowslip patch standing and mow the long pasture.", WITHOUT_COWSLIPS),

@@ -343,6 +343,12 @@ def grid(far: Amount, far2: Amount | None = None, number: Lex | None = None) -> 
     return far.number if abs(across - far.number) < 1e-6 else None
 
 
+@construction("cells: [DET] GRID OF POINT gap=apart", "cells: [DET] GRID WITH POINT gap=apart", cost=0.1)
+def grid_of_points(gap: float) -> float:
+    """Compose "a grid of points 20 m apart"."""
+    return gap
+
+
 @construction(
     "on_grid: AT every=cells",
     "on_grid: USE every=cells",
