@@ -17,8 +17,17 @@ DEMO, GARDEN, GLASSHOUSE, PASTURE = open_site("demo"), vegetable_garden(), glass
 HUSKY, AMIGA, TRACTOR = load_robot("husky"), load_robot("amiga"), load_robot("tractor")
 WITHOUT_COWSLIPS = "mow area Excluding(InZone(cowslip patch), of InZone(long pasture))"
 TO_AND_FRO = "3 times: [go TreeIs(4); picture; go TreeIs(9); picture]"
+TWO_IN_EACH = "for Quota(row, 2, of UnionOf(Rows(3, 3)+Rows(4, 4))): [co2]"
 
 PLANNED = [
+    (
+        GARDEN,
+        AMIGA,
+        "Measure nitrate in the beans and in the radishes, at two spots in each bed.",
+        "for Quota(row, 2, of UnionOf(Where(crop, eq, bean)+Where(crop, eq, radish))): [nitrate]",
+    ),
+    (DEMO, HUSKY, "Read CO2 in rows 3 and 4, at 2 trees in each row.", TWO_IN_EACH),
+    (DEMO, HUSKY, "Read CO2 in row 3 and in row 4, at two trees in each row, spread along its length.", TWO_IN_EACH),
     (
         PASTURE,
         AMIGA,

@@ -27,6 +27,7 @@ def spots_there() -> str:
 
 @construction(
     "in_each: n=count spots_there INEACH [COMMA] [evenly_there]",
+    "in_each: n=count spots_there in_ EACH [OF] ROW [COMMA] [evenly_there]",
     "in_each: n=count evenly_there spots_there INEACH",
     "in_each: n=count INEACH [COMMA] evenly_there",
     "in_each: n=count READING INEACH [COMMA] evenly_there",
@@ -49,6 +50,15 @@ def of_rows_so_many_each(rows: s.Selector, n: int, more: s.Selector | None = Non
     if more is not None:
         rows = s.UnionOf(parts=(*rows.members, *more.members))
     return _of_each_row(n, rows)
+
+
+@construction(
+    "place: of=crop_area [COMMA] n=in_each", "place: of=crop_area AND [in_] more=crop_area [COMMA] n=in_each", cost=0.1
+)
+def of_crops_so_many_each(of: s.Selector, n: int, more: s.Selector | None = None) -> PlaceMeaning:
+    """Compose "in the leeks and in the onions, at three places in each bed"."""
+    plants = of if more is None else s.UnionOf(parts=(*of.members, *more.members))
+    return PlaceMeaning(s.Quota(per="row", count=n, of=plants), "several")
 
 
 @construction(
