@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import pytest
 
-from fieldhand.places.context import Context
-from fieldhand.places.resolution import resolve
 from fieldhand.planning.english.planner import EnglishPlanner
-from fieldhand.planning.planner import Clarify, Planned, Refused
+from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
-from fieldhand.task.plan import walk
 from planning.english.outlines import outline
+from planning.grammar.field_requests import name, require_plan, require_question, require_refusal
 from support.sites.gardens import glasshouse, pasture, vegetable_garden
 
 GARDEN, GLASSHOUSE, PASTURE = vegetable_garden(), glasshouse(), pasture()
@@ -319,34 +317,21 @@ REFUSED = [
 ]
 
 
-def _name(value: object) -> str:
-    return value if isinstance(value, str) else ""
-
-
-@pytest.mark.parametrize(("site", "robot", "request_", "plan"), PLANNED, ids=_name)
+@pytest.mark.parametrize(("site", "robot", "request_", "plan"), PLANNED, ids=name)
 def test_a_request_about_a_field_has_its_plan(site: Site, robot: RobotProfile, request_: str, plan: str) -> None:
-    outcome = EnglishPlanner().plan(request_, site, robot)
-    assert isinstance(outcome, Planned), outcome
-    assert outline(outcome.task).removesuffix(" | return_to_start") == plan
-    for node in walk(outcome.task.composition.plan):
-        if node.selector is not None and node.work is None and not node.selector.relative:
-            assert resolve(node.selector, site, Context(here=site.start))
+    require_plan(site, robot, request_, plan)
 
 
-@pytest.mark.parametrize(("site", "robot", "request_", "ways"), ASKED, ids=_name)
+@pytest.mark.parametrize(("site", "robot", "request_", "ways"), ASKED, ids=name)
 def test_what_the_site_does_not_tell_is_asked(site: Site, robot: RobotProfile, request_: str, ways: int) -> None:
-    outcome = EnglishPlanner().plan(request_, site, robot)
-    assert isinstance(outcome, Clarify), outcome
-    assert len(outcome.choices) == ways
+    require_question(site, robot, request_, ways)
 
 
-@pytest.mark.parametrize(("site", "robot", "request_", "why"), REFUSED, ids=_name)
+@pytest.mark.parametrize(("site", "robot", "request_", "why"), REFUSED, ids=name)
 def test_what_a_field_lacks_is_refused_with_the_reason(
     site: Site, robot: RobotProfile, request_: str, why: str
 ) -> None:
-    outcome = EnglishPlanner().plan(request_, site, robot)
-    assert isinstance(outcome, Refused), outcome
-    assert why in " | ".join(str(reason.what) for reason in outcome.reasons)
+    require_refusal(site, robot, request_, why)
 
 
 def test_beds_and_rows_are_the_same_plants() -> None:
