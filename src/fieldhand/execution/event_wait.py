@@ -7,12 +7,10 @@ from typing import Literal
 
 from fieldhand.execution.active_mission import LOOK_AGAIN_S, ActiveMission
 from fieldhand.execution.event_monitor import EventMonitor, WatchState
+from fieldhand.execution.waiting import SAME_S
 from fieldhand.task.results import Waited
 from fieldhand.task.watches import Fallback
 from fieldhand.wording.watches import wait_limit_s
-
-#: Seconds within which two times are equal: clocks add floating-point numbers.
-_SAME_S = 1e-6
 
 
 def wait_until_over(
@@ -42,7 +40,7 @@ def wait_until_over(
         mission.controller.pause()  # again after an operator's pause, whose end has ended this one
         mission.attend()
         left_s = begun_s + limit_s - mission.t
-        if left_s <= _SAME_S:
+        if left_s <= SAME_S:
             outcome = due.watch.fallback
             break
         soon = mission.observation.next_in
