@@ -25,6 +25,8 @@ from fieldhand.robot.model import RobotProfile
 
 GRAMMAR = Grammar()
 
+#: Words in the names of the attributes of which a description tells too little.
+_TOLD = ("", "=", "vigor", "age", "height", "yield")
 #: Category of these phrases.
 IMPOSSIBLE = "impossible"
 
@@ -225,14 +227,16 @@ def keep_away_somehow() -> Impossible:
 
 
 @construction(
-    "[DET] VAGUEADJ TREE",
+    "[DET] word=VAGUEADJ TREE",
     "[DET] OLD TREE",
     "TREE OF VAGUEADJ ATTR",
     "TREE WITH VAGUEADJ ATTR",
     "VAGUEADJ [DASH] ATTR TREE",
 )
-def without_a_value() -> Impossible:
-    """Compose "the old trees" and "vines of low vigor"."""
+def without_a_value(word: Lex | None = None) -> Impossible | None:
+    """Compose "the old trees" and "vines of low vigor"; dry ones may be what the robot is to find out."""
+    if word is not None and word.value[0] not in _TOLD:
+        return None
     return Impossible(
         message("it does not say from which value on"),
         message("say 'older than 8 years', or 'the ten oldest trees'"),

@@ -7,6 +7,7 @@ from fieldhand.planning.grammar.commands import (
     adjuncts,
     aggregates,
     asked,
+    bringing,
     captures,
     clauses,
     conditions,
@@ -30,6 +31,7 @@ from fieldhand.planning.grammar.commands import (
     to_and_fro,
     waits,
     ways,
+    work_sequel,
     work_wanted,
     working,
 )
@@ -39,7 +41,7 @@ GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
     exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, earlier,
-    work_wanted, laps, headings, asked, left_standing, to_and_fro,
+    work_wanted, laps, headings, asked, left_standing, to_and_fro, work_sequel, bringing,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

@@ -174,7 +174,7 @@ def go_along_part(place: PlaceMeaning) -> Clause | None:
     return _part("k", place=place, relation="along") if place.shape == "area" and place.per is None else None
 
 
-@construction("part: [relation] DET GROUND", cost=0.2)
+@construction("part: [relation] DET GROUND", cost=0.8)
 def ground_part() -> Clause:
     """Compose "the soil" of "test the soil for nitrate" and "nitrate in the soil"."""
     return _part("z")

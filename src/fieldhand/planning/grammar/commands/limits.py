@@ -184,6 +184,9 @@ def at_least(check: Lex, least: Amount) -> Amount | None:
     "low_battery: [DET] BATTERY [IS] check=CMP least=amount",
     "low_battery: [DET] BATTERY REACHES least=amount",
     "low_battery: [DET] BATTERY GOUNDER least=amount",
+    "low_battery: check=CMP least=amount of_what [IS] LEFT",
+    "low_battery: THEREIS check=CMP least=amount [of_what] LEFT [of_what]",
+    "low_battery: THEREIS check=CMP least=amount of_what",
     cost=0.1,
 )
 def low_battery(least: Amount, check: Lex | None = None) -> Amount | None:

@@ -159,6 +159,15 @@ def another_with(how: ParameterValue, robot: RobotProfile) -> list[Thing] | None
     return [Thing(LAST_THING, count=1, parameters=parameters) for parameters in fitting] or None
 
 
+def _with_value(thing: Thing, value: ParameterValue, robot: RobotProfile) -> Thing | None:
+    """Return a capture with a parameter; one that refers to the last one with that of the actions that have it."""
+    if thing.action != LAST_THING:
+        return with_parameter(thing, value, robot)
+    made = [with_parameter(replace(thing, action=action.name), value, robot) for action in robot.actions]
+    fitting = {one.parameters for one in made if one is not None}
+    return replace(thing, parameters=fitting.pop()) if len(fitting) == 1 else None
+
+
 @construction("NOUN: choice=CHOICE [DASH] [name=PARAMETER] noun=NOUN", cost=0.1, given=("robot",))
 def noun_of(choice: Lex, noun: Lex, robot: RobotProfile, name: Lex | None = None) -> list[Lex] | None:
     """Compose "trunk photos" and "ground-view photograph"."""
@@ -190,6 +199,7 @@ def act_on_part(
 
 @construction(
     "capture: said=capture [COMMA] how=parameter",
+    "capture: said=capture [COMMA] [AND] THISTIME how=parameter",
     "capture: said=capture [COMMA] named=setting",
     "capture: said=capture COMMA INEACH how=parameter",
     "capture: said=capture FULLSTOP INEACH how=parameter",
@@ -198,6 +208,7 @@ def act_on_part(
     "capture: said=capture AND how=parameter",
     "capture: how=parameter COMMA said=capture",
     "capture: said=capture COMMA amount=amount",
+    "capture: said=capture [COMMA] [AND] THISTIME amount=amount",
     cost=0.5,
     given=("robot",),
 )
@@ -213,7 +224,7 @@ def capture_with(
     value = named or (how if amount is None else ParameterValue(amount.number, amount.unit, ()))
     if value is None or (named is None and isinstance(value.value, str) and value.value not in _NO_CHOICES):
         return None
-    made = tuple(with_parameter(one, value, robot) for one in said.things)
+    made = tuple(_with_value(one, value, robot) for one in said.things)
     if all(one is None for one in made):
         return None
     things = tuple(one if new is None else new for one, new in zip(said.things, made, strict=True))

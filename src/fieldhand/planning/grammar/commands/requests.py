@@ -388,6 +388,25 @@ def done_there(act: CaptureCommand, place: PlaceMeaning, used: int) -> CaptureCo
     return replace(act, place=place, used=used, relation=relation) if known and act.spacing is None else None
 
 
+@construction("in_the_end: one=capture [COMMA] word=THEN", cost=0.1)
+def in_the_end(one: CaptureCommand, word: Lex, used: int) -> CaptureCommand | None:
+    """Compose "photograph it afterwards", behind something else."""
+    done = "when_done" in word.features and "before_doing" not in word.features
+    return replace(one, used=used) if done else None
+
+
+@construction("said: before=said joint=joint one=in_the_end", cost=0.2)
+def captured_afterwards(before: Said, joint: Connective, one: CaptureCommand) -> Said:
+    """Compose "... and photograph it afterwards", as it comes next anyway."""
+    return Said((*before.clauses, LinkedCommand(joint, one)))
+
+
+@construction("capture: one=capture [COMMA] THISTIME", "capture: THISTIME [COMMA] one=capture", cost=0.2)
+def captured_this_time(one: CaptureCommand, used: int) -> CaptureCommand:
+    """Compose "this time photograph it"."""
+    return replace(one, used=used)
+
+
 @construction("capture: TAKE INSTEAD things=things [relation] [place=place]", cost=0.4)
 def take_instead(things: tuple[Thing, ...], used: int, place: PlaceMeaning | None = None) -> CaptureCommand:
     """Compose "take instead a picture", in another case."""

@@ -32,6 +32,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     as_for_each,
     block_at,
     captures_at_last_place,
+    drawn_again,
     for_each_at,
     is_conditional,
     is_inside,
@@ -109,7 +110,7 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
         raise NotComposed(message("at every tree, or at how many?", context="fault"))
     state, command = _with_unsaid_again(setting, state, command)
     state, things = named_things(setting, state, command)
-    things = meant_things(state, things)
+    things = meant_things(setting, state, things)
     place, state, before = _place_of(setting, state, command)
     before = (*begun, *before)
     tokens = 0 if command.place is None else command.place.tokens & command.used
@@ -192,7 +193,7 @@ def _those_again(state: DialogueState, place: PlaceMeaning | None) -> PlaceMeani
         return place
     if last.selector.relative or last.per is not None or last.optional or last.at_most is not None:
         return place
-    return replace(last, each=place.each)
+    return replace(last, selector=drawn_again(last.selector), each=place.each)
 
 
 def capture_once(
@@ -266,7 +267,7 @@ def _with_unsaid_again(
     return with_assumption(state, same), replace(command, things=things)
 
 
-def meant_things(state: DialogueState, things: tuple[Thing, ...]) -> tuple[Thing, ...]:
+def meant_things(setting: Setting, state: DialogueState, things: tuple[Thing, ...]) -> tuple[Thing, ...]:
     """Return captures, those that refer to the last ones resolved.
 
     Raises:
@@ -287,7 +288,9 @@ def meant_things(state: DialogueState, things: tuple[Thing, ...]) -> tuple[Thing
         raise NotComposed(message("it is not clear whether the same condition decides that", context="fault"))
     last = state.things[0]
     given = dict(last.parameters)
-    if not given.keys() >= dict(things[0].parameters).keys():
+    action = setting.robot.action.get(last.action)
+    known = given.keys() | {parameter.name for parameter in (() if action is None else action.parameters)}
+    if not known >= dict(things[0].parameters).keys():
         raise NotComposed(message("it is not clear what another one is meant", context="fault"))
     parameters = tuple((given | dict(things[0].parameters)).items())
     return (replace(things[0], action=last.action, parameters=parameters),)

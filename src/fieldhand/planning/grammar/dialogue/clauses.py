@@ -592,7 +592,9 @@ def _after(setting: Setting, state: DialogueState, command: After) -> DialogueSt
     """Return the state after a command that is done before the others of its sentence, unless it was done already."""
     done, home = command.done, state.home
     if isinstance(done, CaptureCommand) and is_spoken_of(done.place):
-        if {thing.action for thing in meant_things(state, done.things)} <= {thing.action for thing in state.things}:
+        if {thing.action for thing in meant_things(setting, state, done.things)} <= {
+            thing.action for thing in state.things
+        }:
             return with_joints(state, setting.spans_of(command.used))
         raise NotComposed(message("it is not clear after what", context="fault"))
     if state.commands_in_sentence and home is None:

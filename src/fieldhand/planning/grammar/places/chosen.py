@@ -630,7 +630,9 @@ def places_of(chosen: Chosen, site: Site, word: Lex | None = None) -> list[Place
         return None
     numbers = _numbers(chosen, definite=word is not None)
     how = chosen.choice
-    if how.by == "evenly" and how.value == s.RowOf() and (own := row_of_all(chosen.inner, site)) is not None:
+    in_rows = any(are_rows(part) for part in chosen.inner.selector.walk())
+    open_row = how.by == "evenly" and (how.value == s.RowOf() or (how.value is None and not in_rows))
+    if open_row and (own := row_of_all(chosen.inner, site)) is not None:
         how = replace(how, value=own)  # "six basil plants spread evenly along the bed", which is theirs
     made = [_place(chosen, choice, n) for choice in _named(how, site) for n in numbers]
     if chosen.per is not None:

@@ -18,6 +18,7 @@ from fieldhand.planning.selections import (
     as_some,
     as_top,
     chooses_from_trees,
+    is_by_attribute,
     is_description,
     is_drawn,
     is_end_of_site,
@@ -84,14 +85,6 @@ def first_trees(rank: Lex, n: int, inner: Nominal) -> PlaceMeaning | None:
 def points_over(n: int, zone: Lex) -> PlaceMeaning:
     """Compose "five points spread across the wet corner"."""
     return PlaceMeaning(s.PointsIn(zone=zone.value, count=n), "several", count=n)
-
-
-@construction("place: EACH [OF] word=DET noun=TREE", cost=0.3)
-def each_of_those_named(word: Lex, noun: Lex) -> PlaceMeaning | None:
-    """Compose "each of those trees"."""
-    if "those" not in word.features or not noun.plural:
-        return None
-    return PlaceMeaning(s.Trees(), "those", each=True)
 
 
 @construction("place: EACH [OF] DET n=count TREE", cost=0.8)
@@ -257,7 +250,41 @@ def those(word: Lex) -> PlaceMeaning | None:
     return PlaceMeaning(s.Here(), "those") if "those" in word.features else None
 
 
-@construction("place: DET SAME noun=TREE", "place: DET SAME noun=ONE", cost=0.3)
+@construction(
+    "place: word=DET [n=count] noun=those_noun", "place: word=DET n=count",
+    "place: EACH [OF] word=DET [n=count] noun=those_noun", "place: EACH [OF] word=DET n=count",
+    "place: DET SAME n=count [noun=those_noun]", "place: EACH [OF] DET SAME [n=count] noun=those_noun",
+    "place: DET SAME noun=those_noun",
+    cost=0.3,
+)  # fmt: skip
+def those_named(word: Lex | None = None, n: int | None = None, noun: s.Selector | None = None) -> PlaceMeaning | None:
+    """Compose "those five plants" and "the same spots", of so many that were named before."""
+    if n == 1 or (word is not None and "those" not in word.features):
+        return None
+    return PlaceMeaning(noun or s.Trees(), "those", count=n, each=True)
+
+
+@construction("those_noun: noun=POINT", "those_noun: noun=SAMPLINGPOINT", cost=0.0)
+def those_spots(noun: Lex) -> s.Selector | None:
+    """Compose "spots" of "the same spots"."""
+    return s.Here() if noun.text.endswith("s") else None
+
+
+@construction("those_noun: noun=ONE", cost=0.0)
+def those_ones(noun: Lex) -> s.Selector | None:
+    """Compose "ones" of "the same ones"."""
+    return s.Here() if "plural" in noun.features else None
+
+
+@construction("those_noun: inner=nominal", cost=0.0)
+def those_plants(inner: Nominal) -> s.Selector | None:
+    """Compose "leeks" of "those four leeks", which have to be those that were named before."""
+    if not inner.plural or inner.single or inner.complete or inner.pronoun or inner.kind != "tree":
+        return None
+    return inner.selector if inner.selector == s.Trees() or is_by_attribute(inner.selector) else None
+
+
+@construction("place: DET SAME noun=TREE", "place: DET SAME noun=ONE", "place: DET SAME noun=POINT", cost=0.3)
 def the_same(noun: Lex) -> PlaceMeaning:
     """Compose "the same trees"."""
     several = noun.plural or "plural" in noun.features

@@ -142,6 +142,20 @@ def as_places(points: Points) -> PlaceMeaning | None:
     return points_on(points.where, points.count, random=points.random)
 
 
+@construction(
+    "place: points=points in_ EACH QUARTER OF where=ground", "place: points=points in_ EACH QUARTER in_ where=ground",
+    "place: points=points in_ EACH QUARTER",
+    cost=0.2, given=("site",),
+)  # fmt: skip
+def points_in_each_quarter(points: Points, site: Site, where: Ground | None = None) -> PlaceMeaning | None:
+    """Compose "one random point in each quarter of the meadow"."""
+    whole = where or (None if site.trees else Ground())
+    if whole is None or whole.part != "all" or points.where is not None or not points.count:
+        return None
+    parts = [points_on(replace(whole, part=part), points.count, random=points.random).selector for part in CORNERS]
+    return PlaceMeaning(s.UnionOf(parts=tuple(parts)), "several", count=points.count * len(parts), each=True)
+
+
 def points_on(where: Ground, count: int, *, random: bool = False) -> PlaceMeaning:
     """Return so many points of a zone, of the site, or of a half or quarter of it."""
     made = s.PointsIn(zone=where.zone, count=count, random=random, part=where.part)
