@@ -38,7 +38,7 @@ _IN_ASIDES = frozenset(
 #: Categories of words that what is told of a tree may have beside unknown ones ("the one by the road").
 _IN_APPOSITIONS = frozenset({"AT", "BY", "DET", "DIMENSION", "IMPERSONAL", "IS", "OF", "VAGUEADJ", "WHICH"})
 #: Categories of words that restrict, forbid or command even behind "because", and of verbs that do so behind "and".
-_RESTRICTING = frozenset(
+RESTRICTING = frozenset(
     {
         "ALLOW", "ASMANY", "ATLEAST", "BATTERY", "BUT", "CONTRAST", "CORRECTION", "DEMANDS", "EXCEPT", "GOHOME", "IF",
         "IFSO", "INORDER", "INSTEAD", "INTERVAL", "ISNOT", "LEAVEOUT", "LIMIT", "NOT", "ONLY", "OTHERWISE", "REPEAT",
@@ -310,7 +310,7 @@ def _because(clause: Sequence[int], known: WordKinds) -> Sequence[int]:
         return ()
     for before, k in pairwise(clause[begin:]):
         joined = known.words[before].norm in ("and", "then", "but", "or")
-        if known.may_be(k, _RESTRICTING) or known.words[k].norm.endswith("n't"):
+        if known.may_be(k, RESTRICTING) or known.words[k].norm.endswith("n't"):
             return ()
         if known.captures.get(k) and "HARMLESS" not in known.kinds[k]:
             return ()
