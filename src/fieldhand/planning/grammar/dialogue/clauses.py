@@ -55,7 +55,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_step,
 )
 from fieldhand.planning.grammar.dialogue.those_rows import with_those_rows
-from fieldhand.planning.grammar.dialogue.totals import with_total
+from fieldhand.planning.grammar.dialogue.totals import reported, with_total
 from fieldhand.planning.grammar.dialogue.turns import as_meant
 from fieldhand.planning.grammar.dialogue.waits import waited, with_settling
 from fieldhand.planning.grammar.dialogue.watching import watched
@@ -86,6 +86,7 @@ from fieldhand.planning.grammar.meaning import (
     ReadingQuestion,
     RechargeClause,
     Reordered,
+    Reported,
     Said,
     SettleClause,
     StopCommand,
@@ -365,6 +366,8 @@ def _read(
             return limit_visits(setting, state, command)
         case Total():
             return with_total(setting, capture_elided(setting, state), command)
+        case Reported():
+            return reported(setting, capture_elided(setting, state), command)
         case Again():
             return capture_again(setting, state, command)
         case InAnOrder():
