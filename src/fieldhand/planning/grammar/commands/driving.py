@@ -323,7 +323,7 @@ def after_the_last(place: PlaceMeaning, word: Lex, used: int) -> Lead | None:
     return Lead(place, used) if last and "after_doing" in word.features else None
 
 
-@construction("lead: TOPIC place=place", cost=0.3)
+@construction("lead: TOPIC place=place", "lead: place=place TOPIC", cost=0.3)
 def topic(place: PlaceMeaning, used: int) -> Lead | None:
     """Compose "our focus is the northern half", of what the next sentences are about."""
     return Lead(place, used, relation="topic") if place.shape in ("one", "several", "area") else None
