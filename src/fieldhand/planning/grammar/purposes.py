@@ -80,10 +80,13 @@ def purpose(sentence: Sequence[int], openings: Mapping[int, int], known: WordKin
 
 
 #: Categories of words that no statement contains beside those that no purpose contains.
-_NO_STATEMENT = _NEVER | {
-    "DOES", "GIVES", "HOPES", "TIMEWORD", "KEEP", "KEEPOUT", "LEAVE", "LEFTOUT", "LIMITEDTO", "MATTERS", "MUST", "OFFLIMITS", "PASSES", "PASSON",
-    "REPEAT", "SAMEFOR", "SHOULD", "STAY", "STOP", "TIMES", "TOPIC", "UNCUT", "UNTOUCHED", "UPTO", "WANTED", "WANTS",
-}  # fmt: skip
+_NO_STATEMENT = _NEVER | frozenset(
+    {
+        "DOES", "GIVES", "HOPES", "KEEP", "KEEPOUT", "LEAVE", "LEFTOUT", "LIMITEDTO", "MATTERS", "MUST", "OFFLIMITS",
+        "PASSES", "PASSON", "REPEAT", "SAMEFOR", "SHOULD", "STAY", "STOP", "TIMES", "TIMEWORD", "TOPIC", "UNCUT",
+        "UNTOUCHED", "UPTO", "WANTED", "WANTS",
+    }
+)  # fmt: skip
 #: Words with which a statement begins, and what somebody finds that it is like.
 _SUBJECTS = frozenset({"today", "tomorrow", "something", "somebody", "someone", "nothing"})
 _OURS = frozenset({"i", "we", "i'm", "we're", "they", "they're"})
