@@ -606,6 +606,13 @@ class Total:
 
 
 @dataclass(frozen=True, slots=True)
+class Reported:
+    """A wish to be told what the report of the mission says anyway ("and tell me the average")."""
+
+    used: int
+
+
+@dataclass(frozen=True, slots=True)
 class Again:
     """A command to do what was done at the last place again, at another place or there.
 
@@ -832,6 +839,7 @@ Command = (
     | UntilCondition
     | VisitLimit
     | Total
+    | Reported
     | RankCommand
     | Again
     | InAnOrder

@@ -21,6 +21,7 @@ from fieldhand.planning.grammar.commands import (
     limits,
     pace,
     parameters,
+    reported,
     requests,
     sampling,
     sides,
@@ -39,7 +40,7 @@ GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
     exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, earlier,
-    work_wanted, laps, headings, asked, left_standing, to_and_fro,
+    work_wanted, laps, headings, asked, left_standing, to_and_fro, reported,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

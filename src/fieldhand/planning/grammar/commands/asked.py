@@ -114,7 +114,7 @@ def so_many_readings(things: tuple[Thing, ...]) -> Spots | None:
     "spots: one=spots [COMMA] EVENLYSPACED", "spots: one=spots [COMMA] SPREADOUT",
     "spots: one=spots [COMMA] SPREADHERE",
     "spots: one=spots [COMMA] how=parameter", "spots: one=spots [COMMA] [AND] REMAINS",
-    "spots: one=spots [COMMA] TELLSUS",
+    "spots: one=spots [COMMA] SHOULDDO",
     cost=0.1,
 )  # fmt: skip
 def spots_that(one: Spots, how: ParameterValue | None = None) -> Spots | None:

@@ -22,6 +22,7 @@ from fieldhand.planning.grammar.meaning import (
 from fieldhand.planning.grammar.places.compass import AWAY_FROM
 from fieldhand.planning.grammar.places.groups import both
 from fieldhand.planning.grammar.places.numbers import named_trees
+from fieldhand.planning.grammar.places.sampling import bare_points
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_some, is_row_of_place
 from fieldhand.site.model import Site
@@ -146,6 +147,15 @@ def come_back_to(place: PlaceMeaning, word: Lex, used: int) -> DriveCommand | No
         return None  # the end of the mission
     ends = "ends_there" in word.features
     return DriveCommand(place, used, returns=True, ends=ends) if place.shape == "one" else None
+
+
+@construction("drive: word=RETURN [relation] where=region", cost=0.6, given=("site",))
+def end_on_ground(word: Lex, where: s.Selector, used: int, site: Site) -> DriveCommand | None:
+    """Compose "finish at the trough" and "end up in the wet corner"."""
+    middle = bare_points(where, site, 1)
+    if middle is None or not ({"ends_there", "back", "needs_place"} & word.features or word.text in ("park", "park up")):
+        return None
+    return DriveCommand(PlaceMeaning(middle, "one"), used, returns=True, ends="ends_there" in word.features)
 
 
 @construction("drive: GO way=ALONG where=region", "drive: GO AT where=region", "drive: GO where=region", cost=0.2)
@@ -323,7 +333,7 @@ def after_the_last(place: PlaceMeaning, word: Lex, used: int) -> Lead | None:
     return Lead(place, used) if last and "after_doing" in word.features else None
 
 
-@construction("lead: TOPIC place=place", cost=0.3)
+@construction("lead: TOPIC place=place", "lead: place=place TOPIC", cost=0.3)
 def topic(place: PlaceMeaning, used: int) -> Lead | None:
     """Compose "our focus is the northern half", of what the next sentences are about."""
     return Lead(place, used, relation="topic") if place.shape in ("one", "several", "area") else None

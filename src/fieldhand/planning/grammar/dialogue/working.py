@@ -8,6 +8,7 @@ from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, Spans, with_step
 from fieldhand.planning.grammar.meaning import DriveCommand, WorkCommand
+from fieldhand.planning.grammar.places.sampling import bare_points
 from fieldhand.planning.selections import are_rows
 from fieldhand.task import plan as p
 
@@ -20,6 +21,8 @@ def work_along(setting: Setting, state: DialogueState, command: WorkCommand) -> 
     """
     said: Spans = setting.spans_of(command.used)
     along, mode = command.along, command.mode
+    if along is None and state.area is None and state.lead is None and (ground := _ground_of(state)) is not None:
+        along, mode = ground, "area"
     if along is None:
         before = state.area or state.lead
         if before is None or before.place.shape != "area" or before.place.selector.relative:
@@ -33,6 +36,8 @@ def work_along(setting: Setting, state: DialogueState, command: WorkCommand) -> 
         if not are_rows(along) and implement is not None and implement.covers:
             mode = "area"
     elif state.awaits_command:
+        state = driven_to_ground(setting, state) if state.area is not None and state.area.place.selector != along else state
+    if state.awaits_command:
         area = state.area or state.lead
         if area is None or area.place.shape != "area" or area.place.selector != along:
             raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
@@ -73,6 +78,26 @@ def driven_along(setting: Setting, state: DialogueState) -> DialogueState:
         return state
     node = p.WorkAlong(along=area.place.selector, said=setting.spans_of(area.used))
     return with_step(replace(state, area=None), node)
+
+
+def driven_to_ground(setting: Setting, state: DialogueState) -> DialogueState:
+    """Return the state after a drive to ground where nothing is said to be done ("then go to the trough")."""
+    area = state.area
+    if area is None or state.lead is not None or area.along or area.begins or area.returns:
+        return state
+    middle = bare_points(area.place.selector, setting.site, 1) if area.place.shape == "area" else None
+    if middle is None:
+        return state
+    return with_step(replace(state, area=None), p.GoTo(id="", place=middle, said=setting.spans_of(area.used)))
+
+
+def _ground_of(state: DialogueState) -> s.Selector | None:
+    """Return the zone in which the last captures were made, which "mow it" refers to; None if there is none."""
+    if state.where is None:
+        return None
+    zones = {str(getattr(part, "zone", "")) for part in state.where.selector.members}
+    zone = zones.pop()
+    return s.InZone(zone=zone) if zone and not zones else None
 
 
 def _is_along(area: DriveCommand) -> bool:

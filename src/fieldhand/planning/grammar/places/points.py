@@ -128,6 +128,13 @@ def somewhere(points: Points, where: Ground) -> Points | None:
     return replace(points, where=where) if points.where is None else None
 
 
+@construction("points: where=ground [COMMA] word=AT points=points", cost=0.2)
+def at_points_there(where: Ground, points: Points, word: Lex) -> Points | None:
+    """Compose "(on) the slope at four evenly spread points"."""
+    known = points.where is None and points.count is not None and "motion" not in word.features
+    return replace(points, where=where) if known else None
+
+
 # Places.
 
 
