@@ -8,6 +8,7 @@ from itertools import pairwise
 
 from fieldhand.language import Number, message
 from fieldhand.places import selectors as s
+from fieldhand.places.filters.attribute_dates import is_date
 from fieldhand.request_check import words as w
 from fieldhand.request_check.amounts import StatedAmount
 from fieldhand.request_check.mismatch import PlanMismatch
@@ -35,10 +36,15 @@ _SOME_ROWS = re.compile(
     r"\b(?:each|every|all|per|other|last|final|next|odd|even|alternate|middle|cent(?:er|re|ral)|\w+most|by)"
     r"(?: \w+){0,3} (?:rows?|beds?|bench(?:es)?)\b"
 )
+#: Pattern of rows by when they were planted.
+_PLANTED_FIRST = re.compile(
+    r"\b(?:first|last|earliest|latest|recently|lately)[ -]*(?:sown|seeded|drilled|(?:trans)?planted)\b"
+    r"|\b(?:sown|seeded|drilled|(?:trans)?planted) (?:the |most )?(?:first|last|earliest|latest|recently|lately)\b"
+)
 
 #: Pattern of the neighbours of several trees.
 _BESIDE_THEM = re.compile(
-    r"\b(?:either|each|both) sides? of (?:them|these|those|each)\b|\btheir (?:\w+ )?neighbou?rs\b"
+    r"\b(?:either|each|both) sides? of (?:them|these|those|each|it)\b|\b(?:their|its) (?:\w+ )?neighbou?rs\b"
 )
 #: Pattern of a half that is named by a place near it, or by words that no map explains.
 _SOME_HALF = re.compile(
@@ -131,7 +137,7 @@ def _rows(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
                 "the request names row {row}, but the plan does not", row=Number(f"{amount.values[0]:g}")
             )
             yield PlanMismatch(kind="place", what=what_differs)
-    if facts.unknown or _SOME_ROWS.search(facts.text):
+    if facts.unknown or _SOME_ROWS.search(facts.text) or _PLANTED_FIRST.search(facts.text):
         return
     for node, row in rows:
         for name in dict.fromkeys((row.first, row.last)):
@@ -375,7 +381,7 @@ def _attributes(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[Pl
         words = {t.text for t in _tokens(str(value))}
         if facts.words & _EACH_KIND and stems & {w.singular(t.text) for t in _tokens(attribute)}:
             continue  # the plan covers each variety
-        if isinstance(value, str) and not words & (facts.words | stems):
+        if isinstance(value, str) and not is_date(value) and not words & (facts.words | stems):
             yield PlanMismatch(
                 kind="attribute",
                 what=message(
