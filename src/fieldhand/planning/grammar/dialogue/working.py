@@ -10,6 +10,9 @@ from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed
 from fieldhand.planning.grammar.meaning import DriveCommand, WorkCommand
 from fieldhand.planning.selections import are_rows
 from fieldhand.task import plan as p
+from fieldhand.task.nodes.work_along import WorkHeading
+
+_OPPOSITE: dict[WorkHeading, WorkHeading] = {"north": "south", "south": "north", "east": "west", "west": "east"}
 
 
 def work_along(setting: Setting, state: DialogueState, command: WorkCommand) -> DialogueState:
@@ -45,13 +48,26 @@ def work_along(setting: Setting, state: DialogueState, command: WorkCommand) -> 
         mode=mode,
         sides=command.sides,
         every=command.every,
-        heading=command.heading,
+        heading=_heading_back(state) if command.back else command.heading,
         laps=command.laps,
         optional=command.optional,
         said=said,
     )
     state = _with_rests(state, replace(node, laps=1), command, said) if command.rest_s else with_step(state, node)
     return replace(state, loop=None, captured=None, where=None, commands_in_sentence=state.commands_in_sentence + 1)
+
+
+def _heading_back(state: DialogueState) -> WorkHeading:
+    """Return the direction opposite to that of the work before; any if it has none.
+
+    Raises:
+        NotComposed: No work stands before.
+    """
+    steps = state.plan.steps
+    last = steps[-1] if steps else None
+    if not isinstance(last, p.WorkAlong):
+        raise NotComposed(message("no work stands before this, on the way back from which it is done", context="fault"))
+    return _OPPOSITE.get(last.heading, "any")
 
 
 def _with_rests(state: DialogueState, once: p.WorkAlong, command: WorkCommand, said: Spans) -> DialogueState:
