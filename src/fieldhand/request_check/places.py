@@ -53,8 +53,8 @@ _SOME_HALF = re.compile(
 )
 #: Words that continue a series of numbers: "5, 15, 25 and so on".
 _SERIES = re.compile(r"\b(?:and so (?:on|forth)|etc|like that)\b|\bevery \S+ (?:after|until|up|to)\b")
-#: Range of ids that differ by their number: "n300 through n310".
-_CODE_RANGE = re.compile(r"\b([a-z]+)(\d+)\s*(?:to|through|thru|a|al|hasta|-|\u2013)\s*\1(\d+)\b")
+#: Range of ids that differ by their number: "n300 through n310", "3-5 to 3-10".
+_CODE_RANGE = re.compile(r"(?<![\w-])([a-z]+|[a-z]*\d+-)(\d+)\s*(?:to|through|thru|a|al|hasta|-|\u2013)\s*\1(\d+)\b")
 
 
 def place_mismatches(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
@@ -92,7 +92,7 @@ def _trees(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
         spelt = "".join(ch for ch in tree.lower() if ch.isalnum())
         if _digits(tree) in numbers or tree.lower() in spoken or spelt in "".join(c for c in spoken if c.isalnum()):
             continue
-        if any(_is_between(tree.lower(), *ends) for ends in _CODE_RANGE.findall(facts.text)):
+        if any(_is_between(tree.lower(), *ends) for ends in _CODE_RANGE.findall(facts.text.replace(" - ", "-"))):
             continue
         if _SERIES.search(facts.text) and _is_in_series(_digits(tree), facts.text):
             continue
@@ -368,6 +368,8 @@ def _attributes(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[Pl
     held = {" ".join(t.text for t in _tokens(str(value))) for _, _, value in plan.values}
     for name in {x.first for _, x in plan.having(s.Rows) if isinstance(x, s.Rows) and x.first}:
         held |= _values_in_row(name, site, shared=True)
+    for tree in {tree for _, tree in plan.trees if tree in site.by_id}:
+        held |= {_name_text(str(value)) for value in site.by_id[tree].properties.values()}
     for word in facts.attributes:
         if not any(word in other or other in word for other in held):
             yield PlanMismatch(

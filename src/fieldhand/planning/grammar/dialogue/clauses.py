@@ -21,6 +21,7 @@ from fieldhand.planning.grammar.dialogue.conditions import (
 from fieldhand.planning.grammar.dialogue.driving import (
     drive,
     driven_home,
+    driven_onto,
     enter,
     go_home,
     is_there,
@@ -172,7 +173,7 @@ def _ended(setting: Setting, state: DialogueState) -> DialogueState:
     Raises:
         NotComposed: Something is missing.
     """
-    state = driven_along(setting, state)
+    state = driven_onto(setting, driven_along(setting, state))
     if state.open or state.awaits_command or state.order is not None:
         raise NotComposed(_IDLE, advice=_WHAT_THERE)
     state = _without_idle(state)

@@ -31,6 +31,7 @@ from fieldhand.planning.grammar.dialogue.state import (
 )
 from fieldhand.planning.grammar.meaning import DriveCommand, Home, InAnOrder, Lead, PlaceMeaning, VisitLimit
 from fieldhand.planning.grammar.places.compass import SIDES
+from fieldhand.planning.grammar.places.sampling import bare_zone, is_keep_out
 from fieldhand.planning.grammar.places.vague import as_many_of_best
 from fieldhand.planning.selections import (
     are_rows,
@@ -233,6 +234,18 @@ def go_home(setting: Setting, state: DialogueState, command: Home) -> DialogueSt
     if state.scope:
         return replace(drive(setting, state, _way_home(command)), in_case=command.then)
     return replace(state, nominal=command.then, nominal_said=said, home=command, open=False)
+
+
+def driven_onto(setting: Setting, state: DialogueState) -> DialogueState:
+    """Return the state after a drive to ground without trees at which nothing is said to be done, to its middle."""
+    area = state.area
+    if area is None or state.lead is not None or state.open or area.along or area.begins or area.place.shape != "area":
+        return state
+    zone = bare_zone(area.place.selector, setting.site)
+    if not zone or is_keep_out(area.place.selector, setting.site):
+        return state
+    middle = PlaceMeaning(s.PointsIn(zone=zone, count=1), "one")
+    return drive(setting, replace(state, area=None), replace(area, place=middle))
 
 
 def _marker_spoken_of(state: DialogueState) -> s.Selector:
