@@ -314,6 +314,7 @@ class WorkCommand:
         sides, every, heading, laps, optional, parameters: As of the plan node.
         rest_s: Seconds of rest between laps.
         rests_last: True if it rests after the last lap as well.
+        back: True if it is done on the way back from the work before it, in the other direction.
     """
 
     action: str
@@ -328,6 +329,7 @@ class WorkCommand:
     parameters: tuple[tuple[str, str | float], ...] = ()
     rest_s: float = 0.0
     rests_last: bool = False
+    back: bool = False
 
 
 @dataclass(frozen=True, slots=True)

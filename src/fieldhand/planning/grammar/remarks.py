@@ -346,7 +346,7 @@ def _is_ours(said: Sequence[int], known: WordKinds) -> bool:
     """Return True for what "we" do, if none of it asks for something, or says when."""
     for before, k in pairwise(said):
         word, kinds = known.words[k], known.kinds[k]
-        if word.kind in ("number", "rank", "unit") or word.norm.endswith("n't") or kinds & (_RESTRICTING - {"TIMES"}):
+        if word.kind in ("number", "rank", "unit") or word.norm.endswith("n't") or kinds & (RESTRICTING - {"TIMES"}):
             return False
         if known.words[before].norm in ("and", "then", "but", "or", "to") and (not kinds or known.may_be(k, _VERBS)):
             return False

@@ -15,6 +15,7 @@ from fieldhand.planning.grammar.commands import (
     energy,
     events,
     exclusions,
+    further_work,
     headings,
     laps,
     left_standing,
@@ -40,7 +41,7 @@ GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
     exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, earlier,
-    work_wanted, laps, headings, asked, left_standing, to_and_fro, reported,
+    work_wanted, laps, headings, asked, left_standing, to_and_fro, reported, further_work,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

@@ -233,7 +233,7 @@ def _comparison(setting: Setting, state: DialogueState, test: Test) -> tuple[c.C
 
 
 def _rest_of(setting: Setting, state: DialogueState, test: Test, place: PlaceMeaning) -> PlaceMeaning | None:
-    """Return the only other place of such readings ("if the wet corner is higher"); None if there is none, or several."""
+    """Return the only other place of such readings ("if the wet corner is higher"); None unless there is one."""
     found: list[s.Selector] = []
     for path, node in walk(state.plan):
         if node.act is not None and fits(node, replace(test, unit=""), setting.robot):
@@ -267,8 +267,9 @@ def _is_at(setting: Setting, selector: s.Selector, place: PlaceMeaning) -> bool:
         return True
     zone = as_zone(place.selector)
     if zone is not None and not zone.outside and not zone.margin_m and zone.of == s.Trees():
-        if getattr(selector, "zone", "") == zone.zone and getattr(selector, "part", "") == "all":
-            return True  # free points of the zone
+        is_free = getattr(selector, "zone", "") == zone.zone and getattr(selector, "part", "") == "all"
+        if is_free:  # points of the zone
+            return True
     if are_rows(place.selector) and not is_in_block(place.selector):
         rows = {over(place.selector, block) for block in blocks_of(selector)}
         return bool(rows & set(selector.walk()))

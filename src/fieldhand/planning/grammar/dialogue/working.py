@@ -8,9 +8,12 @@ from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, Spans, with_step
 from fieldhand.planning.grammar.meaning import DriveCommand, WorkCommand
-from fieldhand.planning.grammar.places.sampling import bare_points
+from fieldhand.planning.grammar.places.sampling import bare_points, is_keep_out
 from fieldhand.planning.selections import are_rows
 from fieldhand.task import plan as p
+from fieldhand.task.nodes.work_along import WorkHeading
+
+_OPPOSITE: dict[WorkHeading, WorkHeading] = {"north": "south", "south": "north", "east": "west", "west": "east"}
 
 
 def work_along(setting: Setting, state: DialogueState, command: WorkCommand) -> DialogueState:
@@ -36,7 +39,8 @@ def work_along(setting: Setting, state: DialogueState, command: WorkCommand) -> 
         if not are_rows(along) and implement is not None and implement.covers:
             mode = "area"
     elif state.awaits_command:
-        state = driven_to_ground(setting, state) if state.area is not None and state.area.place.selector != along else state
+        elsewhere = state.area is not None and state.area.place.selector != along
+        state = driven_to_ground(setting, state) if elsewhere else state
     if state.awaits_command:
         area = state.area or state.lead
         if area is None or area.place.shape != "area" or area.place.selector != along:
@@ -50,13 +54,26 @@ def work_along(setting: Setting, state: DialogueState, command: WorkCommand) -> 
         mode=mode,
         sides=command.sides,
         every=command.every,
-        heading=command.heading,
+        heading=_heading_back(state) if command.back else command.heading,
         laps=command.laps,
         optional=command.optional,
         said=said,
     )
     state = _with_rests(state, replace(node, laps=1), command, said) if command.rest_s else with_step(state, node)
     return replace(state, loop=None, captured=None, where=None, commands_in_sentence=state.commands_in_sentence + 1)
+
+
+def _heading_back(state: DialogueState) -> WorkHeading:
+    """Return the direction opposite to that of the work before; any if it has none.
+
+    Raises:
+        NotComposed: No work stands before.
+    """
+    steps = state.plan.steps
+    last = steps[-1] if steps else None
+    if not isinstance(last, p.WorkAlong):
+        raise NotComposed(message("no work stands before this, on the way back from which it is done", context="fault"))
+    return _OPPOSITE.get(last.heading, "any")
 
 
 def _with_rests(state: DialogueState, once: p.WorkAlong, command: WorkCommand, said: Spans) -> DialogueState:
@@ -86,7 +103,7 @@ def driven_to_ground(setting: Setting, state: DialogueState) -> DialogueState:
     if area is None or state.lead is not None or area.along or area.begins or area.returns:
         return state
     middle = bare_points(area.place.selector, setting.site, 1) if area.place.shape == "area" else None
-    if middle is None:
+    if middle is None or is_keep_out(area.place.selector, setting.site):
         return state
     return with_step(replace(state, area=None), p.GoTo(id="", place=middle, said=setting.spans_of(area.used)))
 
