@@ -391,6 +391,19 @@ class LimitClause:
     back: bool = False
 
 
+@dataclass(frozen=True, slots=True)
+class ResultsWish:
+    """A wish for what the report states of the readings: a statistic, or the readings themselves.
+
+    Attributes:
+        quantity: Quantity or action whose readings are meant; empty if the phrase names none.
+        used: Tokens of the phrase.
+    """
+
+    quantity: str
+    used: int
+
+
 #: Quantity of a test of the battery's charge.
 BATTERY_TEST = "the battery"
 
@@ -844,6 +857,7 @@ Command = (
     | PaceClause
     | SettleClause
     | WatchCommand
+    | ResultsWish
 )
 
 

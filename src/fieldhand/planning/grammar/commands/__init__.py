@@ -10,6 +10,7 @@ from fieldhand.planning.grammar.commands import (
     captures,
     clauses,
     conditions,
+    counting,
     driving,
     earlier,
     energy,
@@ -22,6 +23,7 @@ from fieldhand.planning.grammar.commands import (
     pace,
     parameters,
     requests,
+    results,
     sampling,
     sides,
     slow,
@@ -40,6 +42,7 @@ _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
     exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, earlier,
     work_wanted, laps, headings, asked, left_standing, to_and_fro,
+    results, counting,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

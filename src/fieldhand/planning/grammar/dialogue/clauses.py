@@ -43,6 +43,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     walk,
     without_idle_cases,
 )
+from fieldhand.planning.grammar.dialogue.results import results_reported
 from fieldhand.planning.grammar.dialogue.series import is_by_reading, with_read_place
 from fieldhand.planning.grammar.dialogue.slow import ruled
 from fieldhand.planning.grammar.dialogue.state import (
@@ -86,6 +87,7 @@ from fieldhand.planning.grammar.meaning import (
     ReadingQuestion,
     RechargeClause,
     Reordered,
+    ResultsWish,
     Said,
     SettleClause,
     StopCommand,
@@ -361,6 +363,8 @@ def _read(
             return until(setting, state, command)
         case RankCommand():
             return replace(state, ranking=command)
+        case ResultsWish():
+            return results_reported(setting, capture_elided(setting, state), command)
         case VisitLimit():
             return limit_visits(setting, state, command)
         case Total():

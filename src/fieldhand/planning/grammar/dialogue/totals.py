@@ -21,10 +21,10 @@ def with_total(setting: Setting, state: DialogueState, command: Total) -> Dialog
     if _number(setting, state.plan, command.action) != command.count:
         raise NotComposed(message("it gives two different numbers", context="fault"))
     last, said = state.plan.steps[-1], setting.spans_of(command.used)
-    return replace(state, plan=replace(state.plan, steps=(*state.plan.steps[:-1], _also_said(last, said))))
+    return replace(state, plan=replace(state.plan, steps=(*state.plan.steps[:-1], also_said(last, said))))
 
 
-def _also_said(step: p.Node, said: Spans) -> p.Node:
+def also_said(step: p.Node, said: Spans) -> p.Node:
     """Return a step that further words say."""
     return replace(step, said=(*step.said, *said)) if step.act is None else replace(step.act, said=(*step.said, *said))
 
