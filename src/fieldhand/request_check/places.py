@@ -230,6 +230,9 @@ def _areas(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
         words = {t.text for t in _tokens(name)}
         words |= {f"{word}s" for word in words if name.rpartition(" ")[2].isdecimal()}  # "beds 2 to 6" name bed 3
         words |= {f"{word}s" for word in name.split()[:-1]}  # "the orchids" name the orchid patch
+        words |= {
+            f"{word}{end}" for word in name.split()[-1:] for end in ("s", "es")
+        }  # "the two sections" name the warm section
         if facts.unknown or words & facts.words or name.isdecimal() or facts.words & {"each", "every", "all", "both"}:
             continue
         yield PlanMismatch(

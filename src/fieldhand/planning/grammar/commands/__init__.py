@@ -10,6 +10,7 @@ from fieldhand.planning.grammar.commands import (
     captures,
     clauses,
     conditions,
+    counting,
     driving,
     earlier,
     energy,
@@ -41,7 +42,7 @@ GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
     exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, earlier,
-    work_wanted, laps, headings, asked, left_standing, to_and_fro, reported, further_work,
+    work_wanted, laps, headings, asked, left_standing, to_and_fro, reported, further_work, counting,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

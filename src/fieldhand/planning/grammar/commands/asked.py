@@ -65,6 +65,8 @@ def how_wet_is(noun: Lex, where: s.Selector) -> AskedArea | None:
 @construction(
     "asked: [MEASURE] [DET] AVERAGEWORD things=things in_ where=region",
     "asked: [MEASURE] [DET] AVERAGEWORD things=things OF where=region",
+    "asked: TELLME [DET] AVERAGEWORD things=things in_ where=region",
+    "asked: TELLME [DET] AVERAGEWORD things=things OF where=region",
     "asked: MEASURE things=things in_ where=region ONAVERAGE",
     "asked: HOWMUCH things=things THEREIS in_ where=region",
     "asked: HOWMUCH things=things IS in_ where=region",
@@ -125,7 +127,8 @@ def spots_that(one: Spots, how: ParameterValue | None = None) -> Spots | None:
 
 
 @construction(
-    "capture: asked=asked FULLSTOP spots=spots", "capture: asked=asked COMMA spots=spots", cost=0.3,
+    "capture: asked=asked FULLSTOP spots=spots", "capture: asked=asked COMMA spots=spots",
+    "capture: asked=asked [COMMA] OUTOFSPOTS spots=spots", cost=0.3,
     given=("site", "robot"),
 )  # fmt: skip
 def spots_tell(asked: AskedArea, spots: Spots, used: int, site: Site, robot: RobotProfile) -> CaptureCommand | None:

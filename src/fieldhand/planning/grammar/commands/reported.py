@@ -93,11 +93,19 @@ def readings_said(word: Lex | None = None, noun: Lex | None = None, n: int = 0) 
     "finding: WHICHONE [of_the_two] IS one=statistic",
     "finding: DIFFERS",
     "finding: DIFFERS IS",
+    "finding: WHERE IT IS STATISTIC",
+    "finding: WHERE IT IS MOSTREAD",
+    "finding: WHERE [DET] noun=NOUN IS STATISTIC",
+    "finding: WHERE [DET] noun=NOUN IS MOSTREAD",
     cost=0.2,
 )
-def which_is_more(one: Statistic | None = None) -> Finding:
-    """Compose "which is higher", "which of the two is the driest" and "how far apart they are"."""
+def which_is_more(one: Statistic | None = None, noun: Lex | None = None) -> Finding | None:
+    """Compose "which is higher", "which of the two is driest", "where it is highest" and "how far apart they are"."""
     found = Finding() if one is None else statistic(one)
+    if noun is not None:
+        if len(noun.value.quantities) != 1:
+            return None
+        found = Finding((noun.value.quantities[0],))
     return Finding(found.quantities, found.places, asks=True)
 
 
@@ -258,7 +266,7 @@ def reported(
         return None
     read = {name for one in done for thing in one.things for name in _measured(thing.action, robot)}
     known = {zone for one in before.clauses for zone in _places(getattr(one.command, "place", None))}
-    if not {*figure.quantities} <= read or not all(_places(one) <= known for one in figure.places):
+    if not read or not {*figure.quantities} <= read or not all(_places(one) <= known for one in figure.places):
         return None
     own = used
     for clause in before.clauses:

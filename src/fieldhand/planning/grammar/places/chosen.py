@@ -264,7 +264,8 @@ def yielders(rank: tuple[str, bool], n: int | None = None) -> Chosen | None:
 @construction("chosen: EACH n=ORD chosen=chosen", "chosen: EACH OTHER chosen=chosen", cost=0.1)
 def every_nth(chosen: Chosen, n: Lex | None = None) -> Chosen | None:
     """Compose "every third tree" and "every other tree"."""
-    return _every(chosen, 2 if n is None else n.value) if chosen.group or not chosen.inner.plural else None
+    one = chosen.group or not chosen.inner.plural or chosen.inner.unmarked
+    return _every(chosen, 2 if n is None else n.value) if one else None
 
 
 @construction("chosen: word=EACH n=count chosen=chosen", cost=0.2)
@@ -287,6 +288,8 @@ def _every(chosen: Chosen, n: int) -> Chosen | None:
 @construction(
     "chosen: chosen=chosen [COMMA] STARTING [DET] rank=ORD [TREE]",
     "chosen: chosen=chosen [COMMA] STARTING [DET] rank=ORD ONE",
+    "chosen: chosen=chosen [COMMA] COUNTED [DET] rank=ORD [TREE]",
+    "chosen: chosen=chosen [COMMA] COUNTED [DET] rank=ORD ONE",
     cost=0.1,
 )
 def starting_with(chosen: Chosen, rank: Lex) -> Chosen | None:

@@ -123,7 +123,7 @@ def trees_counted(inner: Nominal, at: Positions, site: Site) -> list[PlaceMeanin
     if not middles or one:
         parts = [_at(first, last, at, of) for first, last in at.spans]
     else:
-        single = one_by_one(rows, site)
+        single = [row for row in one_by_one(rows, site) if ids_of(swapped(of, rows, row), site)]
         if not 0 < len(single) <= MOST_ONE_BY_ONE:
             return None
         parts = [_at(first, last, at, swapped(of, rows, row)) for row in single for first, last in at.spans]

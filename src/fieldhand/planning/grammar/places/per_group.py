@@ -124,7 +124,9 @@ def _of_each_row(n: int, rows: s.Selector, how: Literal["spread", "random"] = "s
     return PlaceMeaning(s.Quota(per="row", count=n, how=how, of=rows), "several")
 
 
-@construction("grounds: first=region AND [in_] then=region", cost=0.0)
+@construction(
+    "grounds: first=region AND [in_] then=region", "grounds: first=region COMMA AND [in_] then=region", cost=0.0
+)
 def grounds(first: s.Selector, then: s.Selector) -> tuple[s.Selector, ...] | None:
     """Compose "the wet corner and on the slope"."""
     both = (*first.members, *then.members)

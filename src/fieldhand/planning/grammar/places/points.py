@@ -149,6 +149,21 @@ def as_places(points: Points) -> PlaceMeaning | None:
     return points_on(points.where, points.count, random=points.random)
 
 
+@construction(
+    "place: first=points [COMMA] AND n=count in_ where=ground", "place: first=points [COMMA] AND then=points", cost=0.2
+)
+def and_as_many_elsewhere(
+    first: Points, n: int = 0, where: Ground | None = None, then: Points | None = None
+) -> PlaceMeaning | None:
+    """Compose "four random spots in the warm section and four in the cool section"."""
+    second = Points(n, random=first.random, where=where) if then is None else then
+    if first.count is None or second.count is None or first.where is None or second.where is None:
+        return None
+    parts = [points_on(one.where, one.count, random=one.random) for one in (first, second) if one.where and one.count]
+    both = s.UnionOf(parts=tuple(one.selector for one in parts))
+    return PlaceMeaning(both, "several", count=first.count + second.count)
+
+
 def points_on(where: Ground, count: int, *, random: bool = False) -> PlaceMeaning:
     """Return so many points of a zone, of the site, or of a half or quarter of it."""
     made = s.PointsIn(zone=where.zone, count=count, random=random, part=where.part)
