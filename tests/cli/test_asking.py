@@ -14,7 +14,7 @@ from fieldhand.cli import asking, show
 from fieldhand.cli.asking import MOST_QUESTIONS, Replies, plan_and_ask
 from fieldhand.errors import RequestError
 from fieldhand.mission.documents import SiteAndRobot
-from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned
+from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Reason, Refused
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.loader import open_site
 from fieldhand.site.model import Site
@@ -92,6 +92,13 @@ def test_given_answers_come_first_and_the_rest_is_assumed_and_said() -> None:
         Answer(question="Which end?", answer="south"),
         Answer(question="How many?", answer="4", assumed=True),
     )
+
+
+def test_the_first_choice_is_not_taken_without_asking_if_the_request_is_refused_otherwise() -> None:
+    refused = Refused(reasons=(Reason(what="not understood: 'flurb'"),), planner="asks")
+    planner = Asks((Clarify(question="May it be left out?", choices=("Leave it out.",), otherwise=refused),))
+    assert plan_and_ask("go", SITE_AND_ROBOT, planner, Replies(assume=True))[1] == refused
+    assert isinstance(plan_and_ask("go", SITE_AND_ROBOT, planner, Replies(given=("1",), assume=True))[1], Planned)
 
 
 def test_a_planner_that_never_stops_asking_is_stopped() -> None:

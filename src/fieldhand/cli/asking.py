@@ -90,6 +90,8 @@ def plan_and_ask(request: str, site_and_robot: SiteAndRobot, planner: Planner, r
         assumed = False
         if given:
             reply = given.pop(0)
+        elif replies.assume and outcome.otherwise is not None:
+            return request, outcome.otherwise
         elif replies.assume and outcome.choices:
             reply, assumed = outcome.choices[0], True
         elif replies.ask and may_ask():

@@ -31,6 +31,9 @@ class AutoPlanner:
     def plan(self, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...] = ()) -> Outcome:
         understood = self._english.plan(request, site, robot, answers)
         match understood:
+            case Clarify(otherwise=Refused() as refused) if self._llm is not None:
+                answered = self._ask_model(self._llm, refused, request, site, robot, answers)
+                return understood if isinstance(answered, Refused) else answered
             case Planned() | Clarify():
                 return understood
             case Refused():

@@ -47,6 +47,8 @@ class Clarify:
             unknown so far, and an empty tuple if the choices do not differ on the map.
         planner: Name of the planner that asks.
         free: An answer may use words other than a choice; otherwise such words are treated as a new request.
+        otherwise: Refusal that stands unless somebody gives a choice; no choice may then be taken without asking. None
+            for a question between readings.
     """
 
     question: str
@@ -54,6 +56,7 @@ class Clarify:
     places: tuple[tuple[Place, ...], ...] = ()
     planner: str = ""
     free: bool = False
+    otherwise: Refused | None = None
 
     @property
     def task(self) -> NoReturn:

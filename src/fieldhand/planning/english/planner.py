@@ -16,6 +16,7 @@ from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Refuse
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.codec_text import hidden_character
+from fieldhand.task.plan import Span
 
 #: A request longer than this is no request. Nothing but reading it takes time, and that grows with its length.
 LONGEST_REQUEST = 8_000
@@ -46,16 +47,27 @@ class EnglishPlanner:
         if not isinstance(outcome, Refused) or not self._suggests:
             return outcome
         from fieldhand.planning.refusals.helping import helpful
+        from fieldhand.planning.refusals.leaving_out import asked_to_leave_out
         from fieldhand.planning.refusals.understood import parse_parts
 
-        return helpful(outcome, parse_parts(request, site, robot), lambda text: self._plain(text, site, robot))
+        refused = helpful(outcome, parse_parts(request, site, robot), lambda text: self._plain(text, site, robot))
+        return asked_to_leave_out(
+            request, refused, lambda told: self._plain(request, site, robot, answers, (told,)), answers, site, robot
+        )
 
-    def _plain(self, request: str, site: Site, robot: RobotProfile, answers: tuple[Answer, ...] = ()) -> Outcome:
-        """Plan a request without help if it is refused."""
+    def _plain(
+        self,
+        request: str,
+        site: Site,
+        robot: RobotProfile,
+        answers: tuple[Answer, ...] = (),
+        told: tuple[Span, ...] = (),
+    ) -> Outcome:
+        """Plan a request, without the words in some ranges, and without help if it is refused."""
         check_request(request)
-        words = words_of(request)
+        words = [word for word in words_of(request) if not any(s <= word.start and word.end <= e for s, e in told)]
         earlier = _earlier(words, site, robot)
-        if (timed := self._timed(request, words, site, robot, answers)) is not None:
+        if (timed := self._timed(request, words, site, robot, answers, told)) is not None:
             return timed
         if found := _unplanned(early_wishes(words, lexicon_for(robot, site)), words, robot, earlier):
             from fieldhand.planning.refusals.helping import wish_reasons
@@ -65,10 +77,16 @@ class EnglishPlanner:
             return Refused(reasons=missing, planner=NAME)
         from fieldhand.planning.grammar.reader import composed
 
-        return composed(request, site, robot, answers=answers)
+        return composed(request, site, robot, answers=answers, words=words if told else None, told=told)
 
     def _timed(
-        self, request: str, words: Sequence[Word], site: Site, robot: RobotProfile, answers: tuple[Answer, ...]
+        self,
+        request: str,
+        words: Sequence[Word],
+        site: Site,
+        robot: RobotProfile,
+        answers: tuple[Answer, ...],
+        told: tuple[Span, ...],
     ) -> Outcome | None:
         """Plan a request that says when the mission runs; None if it says no such time."""
         from fieldhand.planning.grammar.reader import composed
@@ -87,7 +105,7 @@ class EnglishPlanner:
         timing = part.provisional.timing(times.said, zone="")
         if timing is None:
             return None
-        outcome = composed(request, site, robot, answers=answers, words=times.words, timing=timing)
+        outcome = composed(request, site, robot, answers=answers, words=times.words, timing=timing, told=told)
         if not isinstance(outcome, Planned):
             return outcome
         if times.beside_any(outcome.task.command.no_part):  # "the crew arrives at 7 am" is told of the crew
@@ -100,16 +118,17 @@ class EnglishPlanner:
             return outcome
         command = outcome.task.command
         said = assumed if answered is None else (answered[1].sentence(), *assumed)
-        told = replace(command, assumptions=(*said, *command.assumptions))
-        return replace(outcome, task=replace(outcome.task, command=told))
+        stated = replace(command, assumptions=(*said, *command.assumptions))
+        return replace(outcome, task=replace(outcome.task, command=stated))
 
 
 def _earlier(words: Sequence[Word], site: Site, robot: RobotProfile) -> frozenset[int]:
-    """Return the numbers of the words that state a time of earlier missions."""
+    """Return the numbers of the words that state a time of earlier missions, or when plants were sown."""
     from fieldhand.planning.grammar.earlier.past_words import past_words
     from fieldhand.planning.grammar.english import camera_of
+    from fieldhand.planning.grammar.planting_words import planting_words
 
-    return past_words(words, lexicon_for(robot, site), camera_of(robot))
+    return past_words(words, lexicon_for(robot, site), camera_of(robot)) | planting_words(words, site)
 
 
 def _unplanned(

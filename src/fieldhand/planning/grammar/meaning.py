@@ -314,6 +314,7 @@ class WorkCommand:
         sides, every, heading, laps, optional, parameters: As of the plan node.
         rest_s: Seconds of rest between laps.
         rests_last: True if it rests after the last lap as well.
+        back: True if it is done on the way back from the work before it, in the other direction.
     """
 
     action: str
@@ -328,6 +329,7 @@ class WorkCommand:
     parameters: tuple[tuple[str, str | float], ...] = ()
     rest_s: float = 0.0
     rests_last: bool = False
+    back: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -606,6 +608,13 @@ class Total:
 
 
 @dataclass(frozen=True, slots=True)
+class Reported:
+    """A wish to be told what the report of the mission says anyway ("and tell me the average")."""
+
+    used: int
+
+
+@dataclass(frozen=True, slots=True)
 class Again:
     """A command to do what was done at the last place again, at another place or there.
 
@@ -832,6 +841,7 @@ Command = (
     | UntilCondition
     | VisitLimit
     | Total
+    | Reported
     | RankCommand
     | Again
     | InAnOrder

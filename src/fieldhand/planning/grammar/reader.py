@@ -272,6 +272,7 @@ def composed(
     *,
     words: Sequence[Word] | None = None,
     timing: Timing | None = None,
+    told: tuple[Span, ...] = (),
 ) -> Outcome:
     """Return the plan of a request that the grammar covers as a whole, or a question if there are several.
 
@@ -284,14 +285,15 @@ def composed(
         answers: Answers to questions about it.
         words: Words of the request that are to be read; None for all.
         timing: When the mission runs, as the other words say.
+        told: Ranges of words that are not read because they ask for nothing.
     """
-    outcome = _composed(request, site, robot, language, answers, words, timing, past=True)
+    outcome = _composed(request, site, robot, language, answers, words, timing, told, past=True)
     if not isinstance(outcome, Refused):
         return outcome
     read_words = language.words_of(request) if words is None else words
     if not keeps_asides(read_words, edges_of(read_words, language.phrases(robot, site))):
         return outcome
-    without = _composed(request, site, robot, language, answers, words, timing, past=False)
+    without = _composed(request, site, robot, language, answers, words, timing, told, past=False)
     is_present = isinstance(without, Planned) and not uses_records(without.task)
     return without if is_present else outcome  # "the yellow trees are to be photographed today"
 
@@ -304,11 +306,13 @@ def _composed(
     answers: tuple[Answer, ...],
     words: Sequence[Word] | None,
     timing: Timing | None,
+    told: tuple[Span, ...],
     *,
     past: bool,
 ) -> Outcome:
     found = read(request, site, robot, language, words, past=past)
-    found = replace(found, readings=[replace(reading, timing=timing) for reading in found.readings])
+    readings = [replace(one, timing=timing, remarks=(*one.remarks, *told)) for one in found.readings]
+    found = replace(found, readings=readings)
     if not found.readings:
         asked = next((fault.what for fault in found.faults if isinstance(fault, OpenQuestion)), None)
         if asked is not None:

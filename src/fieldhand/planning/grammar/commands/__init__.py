@@ -11,17 +11,20 @@ from fieldhand.planning.grammar.commands import (
     captures,
     clauses,
     conditions,
+    counting,
     driving,
     earlier,
     energy,
     events,
     exclusions,
+    further_work,
     headings,
     laps,
     left_standing,
     limits,
     pace,
     parameters,
+    reported,
     requests,
     sampling,
     sides,
@@ -41,7 +44,8 @@ GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
     exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, earlier,
-    work_wanted, laps, headings, asked, left_standing, to_and_fro, work_sequel, bringing,
+    work_wanted, laps, headings, asked, left_standing, to_and_fro, work_sequel, bringing, reported, further_work,
+    counting,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

@@ -68,6 +68,8 @@ def _each(command: CaptureCommand, things: tuple[Thing, ...] | int | None) -> Ca
     place = command.place
     if place is None and command.relation == "bare" and things is None:
         return replace(command, place=PlaceMeaning(s.Here(), "those", each=True))  # "(five vines.) A picture each."
+    if place is not None and place.per is not None and place.shape == "area" and isinstance(things, int):
+        return command if command.things else None  # "in both sections, three readings each"
     if place is None or place.shape != "several" or not command.things or not all(one.count for one in command.things):
         return None
     return replace(command, place=replace(place, each=True))

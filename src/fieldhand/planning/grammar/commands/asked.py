@@ -102,7 +102,7 @@ def in_or_over() -> str:
     "asked: HOWMUCH things=things IS in_ where=asked_of [ONAVERAGE]",
     "asked: HOWMUCH things=things in_ where=asked_of [ONAVERAGE]",
     "asked: WHATIS [DET] [AVERAGEWORD] things=things [IS] in_ where=asked_of [ONAVERAGE]",
-    "asked: ASKFOR [DET] [AVERAGEWORD] things=things in_ where=asked_of [ONAVERAGE]",
+    "asked: ASKMEAN [DET] [AVERAGEWORD] things=things in_ where=asked_of [ONAVERAGE]",
     cost=0.2,
 )
 def what_is_the_mean(things: tuple[Thing, ...], where: tuple[s.Selector, ...]) -> AskedArea | None:
@@ -110,7 +110,7 @@ def what_is_the_mean(things: tuple[Thing, ...], where: tuple[s.Selector, ...]) -
     return AskedArea(things, where) if all(one.count in (None, 1) for one in things) else None
 
 
-@construction("asking: MEASURE", "asking: WHATIS", "asking: ASKFOR", "asking: HOWMUCH", cost=0.0)
+@construction("asking: MEASURE", "asking: WHATIS", "asking: ASKMEAN", "asking: TELLME", "asking: HOWMUCH", cost=0.0)
 def asking() -> str:
     """Compose "find out" before a mean."""
     return "what"
@@ -166,7 +166,7 @@ def spots_in_each(one: Spots) -> Spots | None:
     "spots: one=spots [COMMA] EVENLYSPACED", "spots: one=spots [COMMA] SPREADOUT",
     "spots: one=spots [COMMA] SPREADHERE",
     "spots: one=spots [COMMA] how=parameter", "spots: one=spots [COMMA] [AND] REMAINS",
-    "spots: one=spots [COMMA] TELLSUS", "spots: one=spots [COMMA] ONAVERAGE",
+    "spots: one=spots [COMMA] SHOULDDO", "spots: one=spots [COMMA] ONAVERAGE",
     cost=0.1,
 )  # fmt: skip
 def spots_that(one: Spots, how: ParameterValue | None = None) -> Spots | None:

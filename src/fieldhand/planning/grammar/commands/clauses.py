@@ -18,6 +18,7 @@ from fieldhand.planning.grammar.meaning import LAST_THING, CaptureCommand, Place
 from fieldhand.planning.grammar.places.vague import as_many_of_best
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_every_nth, as_some, is_across
+from fieldhand.robot.model import RobotProfile
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -270,10 +271,12 @@ def first_part(part: Clause) -> Clause | None:
     return part if part.order in _BEGINNINGS else None
 
 
-@construction("clause: clause=clause part=part", cost=0.1)
-def next_part(clause: Clause, part: Clause) -> Clause | None:
+@construction("clause: clause=clause part=part", cost=0.1, given=("robot",))
+def next_part(clause: Clause, part: Clause, robot: RobotProfile) -> Clause | None:
     """Compose a clause with a further part, if there is such an order."""
     order = clause.order + part.order
+    if order.endswith("tz") and any(_has_view_of_ground(thing, robot) for thing in clause.things):
+        return None  # "a picture of the ground" is one of its views
     if order not in _BEGINNINGS or (clause.place is not None and part.place is not None):
         return None
     is_done = order == "ba" and part.verb is not None and "participle" in part.verb.features  # "tree 4 photographed"
@@ -289,11 +292,17 @@ def next_part(clause: Clause, part: Clause) -> Clause | None:
     )
 
 
-@construction("clause: clause=clause COMMA part=part", cost=0.4)
-def part_set_off(clause: Clause, part: Clause) -> Clause | None:
+def _has_view_of_ground(thing: Thing, robot: RobotProfile) -> bool:
+    """Return True for a capture of which one of the choices is the ground."""
+    action = robot.action.get(thing.action)
+    return action is not None and any("ground" in one.choices for one in action.parameters)
+
+
+@construction("clause: clause=clause COMMA part=part", cost=0.4, given=("robot",))
+def part_set_off(clause: Clause, part: Clause, robot: RobotProfile) -> Clause | None:
     """Compose "tree 4, a picture" and "five readings, each 10 m apart, in row 4"."""
     behind = clause.adjuncts and part.order in ("p", "v", "a")
-    return next_part(clause, part) if behind or clause.order + part.order in _SET_OFF else None
+    return next_part(clause, part, robot) if behind or clause.order + part.order in _SET_OFF else None
 
 
 @construction("clause: clause=clause [COMMA] adjunct=adjunct", cost=0.1)

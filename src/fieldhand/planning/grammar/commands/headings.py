@@ -7,8 +7,9 @@ from dataclasses import replace
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import WorkCommand
 from fieldhand.planning.grammar.places.compass import SIDES
+from fieldhand.planning.grammar.places.planted_rows import rows_out_of
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import are_rows, is_one_row
+from fieldhand.planning.selections import are_rows
 from fieldhand.site.model import Site
 from fieldhand.task.nodes.work_along import WorkHeading
 
@@ -108,12 +109,21 @@ def work_towards(one: WorkCommand, order: tuple[str, str, bool], used: int, site
     first, _, last = order[0].partition("_to_")
     if one.mode not in ("rows", "aisles") or one.heading != "any" or first not in SIDES or last not in SIDES:
         return None
-    if one.along is None or not are_rows(one.along):
+    if one.along is None or (not are_rows(one.along) and rows_out_of(one.along, site) is None):
         return None
     wanted = 0.0 if last in ("north", "south") else 90.0
     turned = [abs((block.bearing_deg - wanted + 90.0) % 180.0 - 90.0) for block in site.planting.blocks]
     if not turned or max(turned) > _ALONG_DEG:
         return None  # "rows 3 to 8 from west to east" is an order of the rows
-    if not is_one_row(one.along) and "_to_" not in order[0]:
-        return None
     return replace(one, heading=last, used=used)
+
+
+@construction(
+    "work: one=work [COMMA] ONTHEWAY", "work: ONTHEWAY [COMMA] one=work", "work: TURNROUND [COMMA] [AND] one=work",
+    cost=0.1,
+)  # fmt: skip
+def work_on_the_way_back(one: WorkCommand, used: int) -> WorkCommand | None:
+    """Compose "(film row 4 from south to north,) turn round and film row 5 on the way back"."""
+    if one.mode not in ("rows", "aisles") or one.heading != "any" or one.along is None:
+        return None
+    return replace(one, back=True, used=used)

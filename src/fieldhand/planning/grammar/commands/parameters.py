@@ -70,6 +70,8 @@ def parameter(amount: Amount, word: Lex | None = None, name: Lex | None = None) 
     "setting: [DET] name=PARAMETER SHOULD amount=amount",
     "setting: [WITH] [DET] name=PARAMETER [COMMA] [OF] [DET] choice=CHOICE",
     "setting: [WITH] [DET] choice=CHOICE [DASH] name=PARAMETER",
+    "setting: USE [DET] choice=CHOICE [DASH] name=PARAMETER",
+    "setting: in_ [DET] choice=CHOICE [DASH] name=PARAMETER",
     "setting: word=AT [DET] DEFAULTWORD name=PARAMETER",
     "setting: [WITH] [DET] DEFAULTWORD name=PARAMETER",
     "setting: how=setting REMAINS",
@@ -139,6 +141,18 @@ def another_of(how: ParameterValue, robot: RobotProfile, n: int = 1, other: Lex 
     if not isinstance(how.value, str) or (other is not None and other.plural):
         return None
     made = [with_parameter(Thing(action.name, count=n), how, robot) for action in robot.actions]
+    return [one for one in made if one is not None] or None
+
+
+@construction(
+    "thing: [DET] choice=CHOICE [DASH] name=PARAMETER", "thing: n=count choice=CHOICE [DASH] name=PARAMETER",
+    cost=0.6, given=("robot",),
+)  # fmt: skip
+def view_of(choice: Lex, name: Lex, robot: RobotProfile, n: int | None = None) -> list[Thing] | None:
+    """Compose "a trunk view" as what is taken."""
+    values = [value for value in chosen(choice) if value.names[0] in name.value]
+    things = [Thing(action.name, count=n, plural=name.plural) for action in robot.actions]
+    made = [with_parameter(one, value, robot) for one in things for value in values]
     return [one for one in made if one is not None] or None
 
 
@@ -389,6 +403,8 @@ def with_parameter(thing: Thing, value: ParameterValue, robot: RobotProfile) -> 
     if value.value == DEFAULT_VALUE and action is not None:
         known = {parameter.name for parameter in action.parameters} & {*value.names}
         return thing if known and not known & taken else None
+    if len(fitting) == 1 and isinstance(value.value, str) and fitting[0] in thing.parameters:
+        return thing  # "the trunk ..., using the trunk view"
     if len(fitting) != 1 or fitting[0][0] in taken:
         return None
     return replace(thing, parameters=(*thing.parameters, fitting[0]))

@@ -41,6 +41,7 @@ from fieldhand.planning.grammar.meaning import (
     UntilCondition,
     WayRule,
     When,
+    WorkCommand,
 )
 from fieldhand.planning.grammar.places.numbers import named_trees
 from fieldhand.planning.grammar.words import Lex
@@ -226,17 +227,19 @@ def in_turn_there(one: CaptureCommand, used: int, word: Lex | None = None) -> In
 )
 def corrects(word: Lex | None = None) -> str | None:
     """Compose "no, wait,"; "no tree 5" corrects nothing."""
-    return None if word is not None and "negates" in word.features else "no"
+    if word is None:
+        return "no"
+    return None if "negates" in word.features else word.text
 
 
 @construction(
-    "command: corrects place=place",
-    "command: corrects relation place=place",
+    "command: corrects=corrects place=place",
+    "command: corrects=corrects relation=relation place=place",
     cost=0.2,
 )
-def correction(place: PlaceMeaning, used: int) -> Correction:
-    """Compose "no wait, tree 9"."""
-    return Correction(place, used)
+def correction(place: PlaceMeaning, used: int, corrects: str, relation: str = "") -> Correction | None:
+    """Compose "no wait, tree 9"; "wait at tree 9" asks to wait there."""
+    return None if relation and corrects == "wait" else Correction(place, used)
 
 
 @construction("scratched: SCRATCH place=place", "scratched: SCRATCH trees=numbers", cost=0.1, given=("site",))
@@ -292,13 +295,15 @@ def comes_first(place: PlaceMeaning, used: int, second: PlaceMeaning | None = No
 @construction("said: last=home COMMA rest=said", "said: last=home FULLSTOP rest=said", cost=0.2)
 def home_when_done(last: Home, rest: Said) -> Said | None:
     """Compose "come back when done: photograph tree 4"."""
-    return Said((*rest.clauses, LinkedCommand(None, last))) if last.when_done else None
+    then = rest.clauses[0].before is not None and rest.clauses[0].before.then  # "meet me at the start, then ..."
+    return Said((*rest.clauses, LinkedCommand(None, last))) if last.when_done and not then else None
 
 
 @construction("said: last=drive COMMA rest=said", "said: last=drive FULLSTOP rest=said", cost=0.2)
 def ending_there(last: DriveCommand, rest: Said) -> Said | None:
     """Compose "finish at the charger: photograph tree 4"."""
-    return Said((*rest.clauses, LinkedCommand(None, last))) if last.ends else None
+    then = rest.clauses[0].before is not None and rest.clauses[0].before.then
+    return Said((*rest.clauses, LinkedCommand(None, last))) if last.ends and not then else None
 
 
 @construction("joint: word=BEFORE", cost=0.3)
@@ -505,10 +510,11 @@ def first_of_all(first: Connective, one: Command) -> Said:
     return Said((LinkedCommand(first, one),))
 
 
-@construction("said: one=capture FIRSTONE", "said: one=drive FIRSTONE", cost=0.2)
-def what_is_first(one: CaptureCommand | DriveCommand, used: int) -> Said | None:
+@construction("said: one=capture FIRSTONE", "said: one=drive FIRSTONE", "said: one=work FIRSTONE", cost=0.2)
+def what_is_first(one: CaptureCommand | DriveCommand | WorkCommand, used: int) -> Said | None:
     """Compose "photograph tree 4 first"; "photograph trees 4 and 9, tree 9 first" is an order."""
-    places = () if one.place is None else named_places(one.place.selector)
+    where = one.along if isinstance(one, WorkCommand) else None if one.place is None else one.place.selector
+    places = () if where is None else named_places(where)
     if len(set(places)) < len(places):
         return None
     return Said((LinkedCommand(Connective(False, True, used & ~one.used), one),))
@@ -610,6 +616,24 @@ def without_joint(before: Said, one: Command) -> Said | None:
         case _:
             follows = True
     return Said((*before.clauses, LinkedCommand(None, one))) if follows else None
+
+
+@construction(
+    "elsewhere: [ONLY] WITH place=place",
+    "elsewhere: WITH [ONLY] place=place",
+    "elsewhere: [ONLY] WITH place=place ONLY",
+    cost=0.1,
+)
+def elsewhere(place: PlaceMeaning, used: int) -> Again:
+    """Compose "only with its two neighbours", in another case."""
+    return Again(place, used)
+
+
+@construction("said: before=said [COMMA] one=elsewhere", cost=0.3)
+def goes_on_elsewhere(before: Said, one: Again) -> Said | None:
+    """Compose "(continue with all plants of the row,) otherwise only with its two neighbours"."""
+    otherwise = isinstance(before.clauses[-1].command, Otherwise)
+    return Said((*before.clauses, LinkedCommand(None, one))) if otherwise else None
 
 
 @construction(

@@ -100,6 +100,17 @@ def along_path(along: tuple[SamplingPath, s.Selector | None], site: Site) -> Adj
     return Adjunct(_along, _Route(*along, site), may_lead=True, late=True, lays_out=True)
 
 
+@construction("adjunct: ONPATH", "adjunct: ONTHEWAY", cost=0.2)
+def on_path() -> Adjunct:
+    """Compose "on it" behind the samples of a path."""
+    return Adjunct(_on_path, late=True)
+
+
+def _on_path(command: CaptureCommand, _: None) -> CaptureCommand | None:
+    shape = "" if command.place is None else getattr(command.place.selector, "shape", "")
+    return command if shape else None
+
+
 @construction("adjunct: on=grid_over", cost=0.2, given=("site",))
 def on_grid(on: tuple[float, s.Selector | None], site: Site) -> Adjunct:
     """Compose "on a 20 m grid over the meadow"."""

@@ -25,14 +25,14 @@ Hand = Literal["left", "right"]
 
 @construction(
     "tree_side: EACHSIDE",
-    "tree_side: BOTH [OF] [ITS] SIDE",
-    "tree_side: BOTH [OF] [DET] SIDE",
-    "tree_side: EACH SIDE",
+    "tree_side: BOTH [OF] [ITS] noun=SIDE",
+    "tree_side: BOTH [OF] [DET] noun=SIDE",
+    "tree_side: EACH noun=SIDE",
     cost=0.1,
 )
-def both_sides() -> TreeSide:
-    """Compose "both sides"."""
-    return "both"
+def both_sides(noun: Lex | None = None) -> TreeSide | None:
+    """Compose "both sides"; "each section" and "both parts" are none of a row."""
+    return "both" if noun is None or "borders" in noun.features else None
 
 
 @construction("own_side: [DET] side=DIR SIDE", "own_side: ITS side=DIR SIDE", cost=0.1)

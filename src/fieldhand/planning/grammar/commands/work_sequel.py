@@ -34,22 +34,6 @@ def one_more(where: Tract, rank: Lex | None = None) -> Tract | None:
     return where if rank is None or rank.value == 2 else None
 
 
-@construction("then_there: then [COMMA] [AT] where=tract", "then_there: AND then [COMMA] where=tract", cost=0.3)
-def then_there(where: Tract, used: int) -> tuple[Tract, int]:
-    """Compose "then the slope" behind "mow the meadow"."""
-    return where, used
-
-
-@construction(
-    "said: before=said [COMMA] after=then_there", "said: before=said FULLSTOP after=then_there", cost=0.2,
-    given=("robot",),
-)  # fmt: skip
-def work_there_next(before: Said, after: tuple[Tract, int], robot: RobotProfile) -> list[Said] | None:
-    """Compose "mow the meadow, then the slope"."""
-    where, used = after
-    return same_work_there(before, Connective(False, True, 0), where, used, robot)
-
-
 @construction("said: before=said joint=joint where=one_more", cost=0.2, given=("robot",))
 def same_work_there(before: Said, joint: Connective, where: Tract, used: int, robot: RobotProfile) -> list[Said] | None:
     """Compose "a video of the carrot bed, then one of the beetroot bed"."""

@@ -74,6 +74,7 @@ def work_name(verb: Lex) -> Lex:
     "work: GO OVER where=tract WITH [DET] verb=WORKN",
     "work: GO [INORDERTO] verb=WORKV where=tract",
     "work: GO AND verb=WORKV where=tract",
+    "work: GO where=tract [COMMA] AND verb=WORKV IT",
     cost=0.1,
     given=("robot",),
 )

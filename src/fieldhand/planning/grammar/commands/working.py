@@ -303,9 +303,9 @@ def in_laps(one: WorkCommand, n: Lex, used: int) -> WorkCommand | None:
     return replace(one, laps=int(n.value), used=used)
 
 
-@construction("work: one=work [COMMA] THATONLY", cost=0.2)
+@construction("work: one=work [COMMA] THATONLY", "work: one=work [COMMA] ENTIRE", cost=0.2)
 def nothing_else(one: WorkCommand, used: int) -> WorkCommand | None:
-    """Compose "mow the meadow, nothing else", before what follows."""
+    """Compose "mow the meadow, nothing else", before what follows, and "film row 4 from end to end"."""
     return None if one.along is None else replace(one, used=used)
 
 

@@ -43,7 +43,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     walk,
     without_idle_cases,
 )
-from fieldhand.planning.grammar.dialogue.series import is_by_reading, with_read_place
+from fieldhand.planning.grammar.dialogue.series import at_compared, is_by_reading, with_read_place
 from fieldhand.planning.grammar.dialogue.slow import ruled
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
@@ -55,11 +55,11 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_step,
 )
 from fieldhand.planning.grammar.dialogue.those_rows import with_those_rows
-from fieldhand.planning.grammar.dialogue.totals import with_total
+from fieldhand.planning.grammar.dialogue.totals import reported, with_total
 from fieldhand.planning.grammar.dialogue.turns import as_meant
 from fieldhand.planning.grammar.dialogue.waits import waited, with_settling
 from fieldhand.planning.grammar.dialogue.watching import watched
-from fieldhand.planning.grammar.dialogue.working import driven_along, work_along
+from fieldhand.planning.grammar.dialogue.working import driven_along, driven_to_ground, work_along
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
     After,
@@ -86,6 +86,7 @@ from fieldhand.planning.grammar.meaning import (
     ReadingQuestion,
     RechargeClause,
     Reordered,
+    Reported,
     Said,
     SettleClause,
     StopCommand,
@@ -151,7 +152,7 @@ def read_clauses(setting: Setting, said: Said, *, in_fragments: bool = False) ->
         NotComposed: The clauses do not fit together.
         Fork: They can be continued in several ways, and ``setting`` does not say in which.
     """
-    clauses, edits = as_meant(setting, said.clauses)
+    clauses, edits = as_meant(setting, at_compared(said.clauses))
     if in_fragments and (whole := assembled(setting, clauses)) != clauses:
         clauses = whole
     elif in_fragments:
@@ -172,7 +173,7 @@ def _ended(setting: Setting, state: DialogueState) -> DialogueState:
     Raises:
         NotComposed: Something is missing.
     """
-    state = driven_along(setting, state)
+    state = driven_to_ground(setting, driven_along(setting, state))
     if state.open or state.awaits_command or state.order is not None:
         raise NotComposed(_IDLE, advice=_WHAT_THERE)
     state = _without_idle(state)
@@ -365,6 +366,8 @@ def _read(
             return limit_visits(setting, state, command)
         case Total():
             return with_total(setting, capture_elided(setting, state), command)
+        case Reported():
+            return reported(setting, capture_elided(setting, state), command)
         case Again():
             return capture_again(setting, state, command)
         case InAnOrder():
