@@ -276,12 +276,16 @@ def is_more_than_other(
     "test: first=side IS DET word=BARECMP noun=NOUN",
     cost=0.3,
 )
-def is_more_than_the_rest(first: Subject, word: Lex, of: Lex | None = None, noun: Lex | None = None) -> list[Test] | None:
+def is_more_than_the_rest(
+    first: Subject, word: Lex, of: Lex | None = None, noun: Lex | None = None
+) -> list[Test] | None:
     """Compose "the wet corner averages higher", than the other area that was read."""
     if first.place is None or first.place.shape == "one" or word.value not in ("lt", "gt"):
         return None
     named = cast(Statistic, of.value) if of is not None else "mean"
-    quantities = [first.quantity] if noun is None else [one for one in noun.value.quantities if first.quantity in ("", one)]
+    quantities = (
+        [first.quantity] if noun is None else [one for one in noun.value.quantities if first.quantity in ("", one)]
+    )
     return [
         Test(one, word.value, 0.0, place=first.place, of=first.of or named, than=Subject(of=first.of or named))
         for one in dict.fromkeys(quantities)

@@ -22,7 +22,7 @@ from fieldhand.planning.grammar.meaning import (
 from fieldhand.planning.grammar.places.compass import AWAY_FROM
 from fieldhand.planning.grammar.places.groups import both
 from fieldhand.planning.grammar.places.numbers import named_trees
-from fieldhand.planning.grammar.places.sampling import bare_points
+from fieldhand.planning.grammar.places.sampling import bare_points, is_keep_out
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_some, is_row_of_place
 from fieldhand.site.model import Site
@@ -152,18 +152,20 @@ def come_back_to(place: PlaceMeaning, word: Lex, used: int) -> DriveCommand | No
 @construction("drive: word=RETURN [relation] where=region", cost=0.6, given=("site",))
 def end_on_ground(word: Lex, where: s.Selector, used: int, site: Site) -> DriveCommand | None:
     """Compose "finish at the trough" and "end up in the wet corner"."""
-    middle = bare_points(where, site, 1)
-    if middle is None or not ({"ends_there", "back", "needs_place"} & word.features or word.text in ("park", "park up")):
+    middle = None if is_keep_out(where, site) else bare_points(where, site, 1)
+    if middle is None or not (
+        {"ends_there", "back", "needs_place"} & word.features or word.text in ("park", "park up")
+    ):
         return None
     return DriveCommand(PlaceMeaning(middle, "one"), used, returns=True, ends="ends_there" in word.features)
 
 
-@construction("drive: GO way=ALONG where=region", "drive: GO AT where=region", "drive: GO where=region", cost=0.2)
-def drive_along(where: s.Selector, used: int, way: Lex | None = None) -> DriveCommand:
+@construction("drive: GO way=ALONG where=region", "drive: GO to=AT where=region", "drive: GO where=region", cost=0.2)
+def drive_along(where: s.Selector, used: int, way: Lex | None = None, to: Lex | None = None) -> DriveCommand:
     """Compose "drive along row 3"."""
     place = PlaceMeaning(where, "area")
     if way is None:
-        return DriveCommand(place, used)
+        return DriveCommand(place, used, to=to is not None and not to.features.isdisjoint({"motion", "within"}))
     along: Along = "up" if "upwards" in way.features else "down" if "downwards" in way.features else "along"
     return DriveCommand(place, used, along=along)
 

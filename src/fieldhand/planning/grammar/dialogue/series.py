@@ -233,7 +233,7 @@ def _comparison(setting: Setting, state: DialogueState, test: Test) -> tuple[c.C
 
 
 def _rest_of(setting: Setting, state: DialogueState, test: Test, place: PlaceMeaning) -> PlaceMeaning | None:
-    """Return the only other place of such readings ("if the wet corner is higher"); None if there is none, or several."""
+    """Return the only other place of such readings ("if the wet corner is higher"); None if it is not the only one."""
     found: list[s.Selector] = []
     for path, node in walk(state.plan):
         if node.act is not None and fits(node, replace(test, unit=""), setting.robot):
@@ -266,9 +266,9 @@ def _is_at(setting: Setting, selector: s.Selector, place: PlaceMeaning) -> bool:
     if selector == place.selector or place.selector in tuple(selector.walk()):
         return True
     zone = as_zone(place.selector)
-    if zone is not None and not zone.outside and not zone.margin_m and zone.of == s.Trees():
-        if getattr(selector, "zone", "") == zone.zone and getattr(selector, "part", "") == "all":
-            return True  # free points of the zone
+    named = zone is not None and zone == s.InZone(zone=zone.zone) and getattr(selector, "zone", "") == zone.zone
+    if named and getattr(selector, "part", "") == "all":
+        return True  # free points of the zone
     if are_rows(place.selector) and not is_in_block(place.selector):
         rows = {over(place.selector, block) for block in blocks_of(selector)}
         return bool(rows & set(selector.walk()))
