@@ -72,6 +72,15 @@ def nothing_between(low: Lex | Amount, high: Lex | Amount) -> Impossible | None:
     return Impossible(what, message("put the lower number first"))
 
 
+@construction("FROM TREEID range_to TREEID", "BETWEEN TREEID AND TREEID")
+def part_of_a_row() -> Impossible:
+    """Compose "from G4-03 to G4-13" behind work along a row."""
+    return Impossible(
+        message("work along a row is done along the whole row: a part of it cannot be said yet"),
+        message("name the row: 'spray row 4'"),
+    )
+
+
 @construction("[DET] DIR HALF in_ rows", "[DET] DIR EDGE in_ rows", "[DET] DIR QUARTER in_ rows")
 def half_of_rows() -> Impossible:
     """Compose "the northern half of row 3"."""

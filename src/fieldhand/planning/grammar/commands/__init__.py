@@ -31,6 +31,7 @@ from fieldhand.planning.grammar.commands import (
     to_and_fro,
     waits,
     ways,
+    which_of_two,
     work_wanted,
     working,
 )
@@ -40,7 +41,7 @@ GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
     exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, earlier,
-    work_wanted, laps, headings, asked, left_standing, to_and_fro, reported,
+    work_wanted, laps, headings, asked, left_standing, to_and_fro, reported, which_of_two,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)
