@@ -44,7 +44,8 @@ _PLANTED_FIRST = re.compile(
 
 #: Pattern of the neighbours of several trees.
 _BESIDE_THEM = re.compile(
-    r"\b(?:either|each|both) sides? of (?:them|these|those|each|it)\b|\b(?:their|its) (?:\w+ )?neighbou?rs\b"
+    r"\b(?:either|each|both) sides? of (?:it|them|these|those|each)\b|\b(?:their|its) (?:\w+ )?neighbou?rs\b"
+    r"|\bplants? (?:\w+ )?(?:next to|beside) (?:it|them|each)\b|\bneighbou?rs? of each\b"
 )
 #: Pattern of a half that is named by a place near it, or by words that no map explains.
 _SOME_HALF = re.compile(

@@ -74,6 +74,15 @@ def nothing_between(low: Lex | Amount, high: Lex | Amount) -> Impossible | None:
     return Impossible(what, message("put the lower number first"))
 
 
+@construction("FROM TREEID range_to TREEID", "BETWEEN TREEID AND TREEID")
+def part_of_a_row() -> Impossible:
+    """Compose "from G4-03 to G4-13" behind work along a row."""
+    return Impossible(
+        message("work along a row is done along the whole row: a part of it cannot be said yet"),
+        message("name the row: 'spray row 4'"),
+    )
+
+
 @construction("[DET] DIR HALF in_ rows", "[DET] DIR EDGE in_ rows", "[DET] DIR QUARTER in_ rows")
 def half_of_rows() -> Impossible:
     """Compose "the northern half of row 3"."""
@@ -203,6 +212,9 @@ def work_at_places(where: PlaceMeaning) -> Impossible | None:
     """Compose "spray tree 4"."""
     if where.shape == "area":
         return None
+    several = len(where.selector.members) > 2
+    if several or any(isinstance(part, s.Rows) for part in where.selector.walk()):
+        return part_of_a_row()  # "spray row 4 from G4-03 to G4-13"
     return Impossible(
         message("this is done while driving along a path, not at single trees"),
         message("say along which rows, between which rows, or over which area"),

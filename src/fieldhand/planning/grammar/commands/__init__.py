@@ -34,6 +34,7 @@ from fieldhand.planning.grammar.commands import (
     to_and_fro,
     waits,
     ways,
+    which_of_two,
     work_sequel,
     work_wanted,
     working,
@@ -45,7 +46,7 @@ _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
     exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, earlier,
     work_wanted, laps, headings, asked, left_standing, to_and_fro, work_sequel, bringing, reported, further_work,
-    counting,
+    counting, which_of_two,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

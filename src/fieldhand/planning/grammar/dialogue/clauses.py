@@ -317,6 +317,8 @@ def _read(
                 not isinstance(one.command, LimitClause | RechargeClause | WayRule) for one in following
             ):
                 raise NotComposed(message("something follows the end of the mission", context="fault"))
+            if joint is not None and (joint.full or joint.then or joint.both):
+                state = driven_to_ground(setting, state)
             if following and _chooses_among(command, following[0].command):
                 command = replace(command, place=replace(command.place, shape="area"))
             driven = drive(setting, state, command)
