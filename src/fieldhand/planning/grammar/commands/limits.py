@@ -346,6 +346,18 @@ def visits_at_most(n: int, used: int, word: Lex | None = None, check: Lex | None
 
 
 @construction(
+    "visit_limit: VISIT limit=visit_limit",
+    "visit_limit: TAKE limit=visit_limit",
+    "visit_limit: MEASURE limit=visit_limit",
+    "visit_limit: WHODOES limit=visit_limit",
+    cost=0.0,
+)
+def visiting_at_most(limit: VisitLimit, used: int) -> VisitLimit | None:
+    """Compose "visit no more than ten plants" behind what is done at them."""
+    return None if limit.count is None else replace(limit, used=used)
+
+
+@construction(
     "visit_limit: ASMANY as_can [COMMA] [AND] [NOTMORE]", "visit_limit: HOWEVERMANY as_can [COMMA] [NOTMORE]", cost=0.5
 )
 def as_many_of_them(used: int) -> VisitLimit:
