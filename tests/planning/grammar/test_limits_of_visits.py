@@ -89,3 +89,32 @@ def test_visits_are_limited(site: Site, robot: RobotProfile, request_: str, plan
 @pytest.mark.parametrize(("site", "robot", "request_", "why"), REFUSED, ids=name)
 def test_visits_for_nothing_are_refused(site: Site, robot: RobotProfile, request_: str, why: str) -> None:
     require_refusal(site, robot, request_, why)
+
+
+@pytest.mark.parametrize(
+    ("site", "robot", "request_", "plan"),
+    [
+        (
+            DEMO,
+            HUSKY,
+            "Photograph tree 4, then as many other trees as you can in 10 minutes.",
+            "picture @ TreeIs(4); for NotVisited optional: [picture] | duration_s 600",
+        ),
+        (
+            GARDEN,
+            AMIGA,
+            "Read the nitrate at the tallest bean first, and then at as many other beans as you can in 10 minutes.",
+            "nitrate @ Top(height_cm, 1, of Where(crop, eq, bean));"
+            " for NotVisited(of Where(crop, eq, bean)) optional: [nitrate] | duration_s 600",
+        ),
+        (
+            DEMO,
+            HUSKY,
+            "Photograph as many different trees as possible in 10 minutes.",
+            "for Trees optional: [picture] | duration_s 600",
+        ),
+    ],
+    ids=name,
+)
+def test_other_places_are_those_not_visited(site: Site, robot: RobotProfile, request_: str, plan: str) -> None:
+    require_plan(site, robot, request_, plan)

@@ -156,12 +156,15 @@ def some_or_all(n: int, selector: s.Selector, site: Site) -> list[PlaceMeaning] 
     return [every, some]
 
 
-@construction("place: ASMANY [DET] [OTHER] inner=nominal as_can", "place: [DET] MOSTNUMBER OF inner=nominal", cost=0.2)
-@construction("place: ASMANY [DET] [OTHER] inner=nominal", cost=2.0)
-def as_many(inner: Nominal) -> PlaceMeaning | None:
-    """Compose "as many trees as you can"."""
+@construction("place: ASMANY [DET] [other=OTHER] inner=nominal as_can", cost=0.2)
+@construction("place: [DET] MOSTNUMBER OF inner=nominal", cost=0.2)
+@construction("place: ASMANY [DET] [other=OTHER] inner=nominal", cost=2.0)
+def as_many(inner: Nominal, other: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "as many trees as you can" and "as many other trees as you can"."""
     if inner.single or not inner.plural:
         return None
+    if other is not None and "others" in other.features:
+        inner = replace(inner, selector=s.NotVisited(of=inner.selector))
     return as_many_of_best(PlaceMeaning(inner.selector, "several", optional=True, vague=inner.vague))
 
 
