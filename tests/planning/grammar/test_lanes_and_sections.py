@@ -84,6 +84,13 @@ REFUSED = [
     (DEMO, HUSKY, "read CO2 every so often along row 3", "it does not say how far apart"),
     (PASTURE, TRACTOR, "find the thistles on the bank and spray only those", "to recognise something"),
     (PASTURE, TRACTOR, "mow the bank but watch out for fawns", "to recognise something"),
+    (PASTURE, HUSKY, "read CO2 at six random points on the bank, at least 8 m apart", "points keep no least distance"),
+    (
+        PASTURE,
+        HUSKY,
+        "read CO2 on the bank and in the boggy corner, switching area after every reading",
+        "after each place",
+    ),
     (BAYS, AMIGA, "photograph every plant of row 9 in the new bay", "there is no row '9'"),
 ]
 

@@ -89,6 +89,16 @@ def part_of_fence(fence: s.Selector, site: Site) -> Impossible | None:
     )
 
 
+@construction("apart_least", given=("site",))
+def points_apart(site: Site) -> Impossible | None:
+    """Compose "at least 8 m apart" where no trees grow, of points that are drawn."""
+    if site.trees:
+        return None
+    return Impossible(
+        message("points keep no least distance from each other"), message("say 'spread evenly', or 'on a 10 m grid'")
+    )
+
+
 @construction("VAGUESPACING")
 def unsaid_spacing() -> Impossible:
     """Compose "every few metres"."""
