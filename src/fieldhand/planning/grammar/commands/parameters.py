@@ -21,7 +21,6 @@ from fieldhand.planning.grammar.meaning import (
     LimitClause,
     LinkedCommand,
     ParameterValue,
-    PlaceMeaning,
     Said,
     StopCommand,
     Thing,
@@ -207,22 +206,6 @@ def noun_of(choice: Lex, noun: Lex, robot: RobotProfile, name: Lex | None = None
     made = [with_parameter(thing, value, robot) for value in values]
     named = [replace(naming, parameters=one.parameters) for one in made if one is not None]
     return [replace(noun, value=one) for one in named] or None
-
-
-@construction(
-    "capture: verb=ACTV how=parameter relation place=place",
-    "capture: verb=ACTV how=parameter",
-    cost=0.3,
-    given=("robot",),
-)
-def act_on_part(
-    verb: Lex, how: ParameterValue, used: int, robot: RobotProfile, place: PlaceMeaning | None = None
-) -> CaptureCommand | None:
-    """Compose "photograph the trunk of tree 4"."""
-    made = with_parameter(Thing(verb.value.actions[0]), how, robot)
-    return (
-        None if made is None or not isinstance(how.value, str) else CaptureCommand((made,), place, used, relation="of")
-    )
 
 
 @construction(
