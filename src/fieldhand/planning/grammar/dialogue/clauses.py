@@ -9,6 +9,7 @@ from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.allowances import allowed, failing
 from fieldhand.planning.grammar.dialogue.capturing import capture, capture_again, capture_elided, meant_things
+from fieldhand.planning.grammar.dialogue.compared import in_both_cases, is_compared
 from fieldhand.planning.grammar.dialogue.conditions import (
     captured_where,
     in_no_case,
@@ -55,6 +56,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_joints,
     with_step,
 )
+from fieldhand.planning.grammar.dialogue.that_ground import with_that_ground
 from fieldhand.planning.grammar.dialogue.those_rows import with_those_rows
 from fieldhand.planning.grammar.dialogue.totals import with_total
 from fieldhand.planning.grammar.dialogue.turns import as_meant
@@ -249,7 +251,13 @@ def _read(
     setting: Setting, state: DialogueState, clause: LinkedCommand, following: Sequence[LinkedCommand]
 ) -> DialogueState:
     """Return the state after a clause."""
-    clause = replace(clause, command=with_those_rows(state, clause.command))
+    state, command = with_that_ground(state, with_those_rows(state, clause.command))
+    clause = replace(clause, command=command)
+    if is_compared(clause.command):
+        outer, cases = state.scope, in_both_cases(setting, capture_elided(setting, state), clause)
+        for number, one in enumerate(cases):
+            state = _read(setting, state, one, cases[number + 1 :])
+        return replace(state, scope=outer, loop=None, captured=None)
     if isinstance(clause.command, WatchCommand):
         joined = () if clause.before is None else setting.spans_of(clause.before.used)
         return watched(setting, with_joints(state, joined), clause.command)

@@ -40,6 +40,7 @@ from fieldhand.planning.selections import (
     as_some,
     blocks_of,
     chooses_from_trees,
+    is_gate,
     is_next_to_here,
     is_one_row,
     measures_distance,
@@ -130,9 +131,10 @@ def enter(setting: Setting, state: DialogueState, area: DriveCommand) -> Dialogu
 
 
 def _stands_idle(state: DialogueState) -> bool:
-    """Return True if the robot was just sent to a place where nothing has been done yet."""
+    """Return True if the robot was just sent to a place where nothing has been done yet; a gate is passed."""
     steps = state.block.steps
-    return bool(steps) and steps[-1].only_drives
+    last = steps[-1] if steps else None
+    return last is not None and last.only_drives and not (last.selector is not None and is_gate(last.selector))
 
 
 def visits(place: PlaceMeaning, said: Spans) -> p.ForEach:

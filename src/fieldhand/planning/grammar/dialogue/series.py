@@ -32,6 +32,7 @@ from fieldhand.planning.grammar.dialogue.state import (
 )
 from fieldhand.planning.grammar.dialogue.tested import checked, fits
 from fieldhand.planning.grammar.meaning import (
+    NTH_READING,
     AllTests,
     CaptureCommand,
     Command,
@@ -41,10 +42,12 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
     Test,
     When,
+    wait_seconds,
 )
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.selections import (
     are_rows,
+    as_zone,
     blocks_of,
     is_in_block,
     is_one_row,
@@ -194,6 +197,8 @@ def _known(setting: Setting, test: Test, name: str, quantity: str, unit: str) ->
 def _comparison(setting: Setting, state: DialogueState, test: Test) -> tuple[c.Condition, DialogueState]:
     """Return the comparison of the readings at one place, or in one area, with those at another."""
     other = test.than
+    if other is not None and other.quantity.startswith(NTH_READING):
+        return _change(setting, state, test, other.quantity)
     if other is None or other.place is None or test.place is None:
         raise NotComposed(message("it is not clear which readings are tested", context="fault"))
     state = _parted(setting, state, test.place, other.place)
@@ -212,6 +217,35 @@ def _comparison(setting: Setting, state: DialogueState, test: Test) -> tuple[c.C
         value=test.value,
         unit=unit if test.value else "",
     )
+    return made, state
+
+
+def _change(setting: Setting, state: DialogueState, test: Test, other: str) -> tuple[c.Condition, DialogueState]:
+    """Return the comparison of two readings that are known by their numbers: the last one and the one before it.
+
+    Raises:
+        NotComposed: There are none, or they measure different things.
+    """
+    unclear = NotComposed(message("it is not clear which readings are tested", context="fault"))
+    acts = [(path, node.act) for path, node in walk(state.plan) if node.act is not None]
+    found = [(path, act) for path, act in acts if wait_seconds(act.action) is None]
+    taken = [path for path, act in found if act.count == 1 and setting.robot.action[act.action].measures]
+    taken = [path for path in taken if not any(node_at(state.plan, path[:end]).visits_each for end in range(len(path)))]
+    named: list[tuple[str, str]] = []
+    for number in (int(test.quantity.removeprefix(NTH_READING)), int(other.removeprefix(NTH_READING))):
+        at = number - 1 if number > 0 else len(taken) + number
+        if not 0 <= at < len(taken) or len(taken) < len(found):
+            raise unclear
+        one, quantity, state = _named(setting, state, replace(test, quantity=""), [taken[at]])
+        named.append((one, quantity))
+    (name, quantity), (than, other_quantity) = named
+    unit = setting.robot.quantity[quantity].unit
+    if name == than or quantity != other_quantity or (test.unit and test.unit != unit):
+        raise unclear
+    made = CompareSeries(
+        of="mean", reading=name, than=than, quantity=quantity, test=cast(Any, test.check), value=test.value,
+        unit=unit if test.value else "",
+    )  # fmt: skip
     return made, state
 
 
@@ -237,6 +271,9 @@ def _is_at(setting: Setting, selector: s.Selector, place: PlaceMeaning) -> bool:
     """Return True if the places of a selector are those of a phrase, or some of its area."""
     if selector == place.selector or place.selector in tuple(selector.walk()):
         return True
+    zone = as_zone(place.selector)
+    if zone is not None and zone == s.InZone(zone=zone.zone) and getattr(selector, "zone", "") == zone.zone:
+        return True
     if are_rows(place.selector) and not is_in_block(place.selector):
         rows = {over(place.selector, block) for block in blocks_of(selector)}
         return bool(rows & set(selector.walk()))
@@ -255,7 +292,7 @@ def _paths(setting: Setting, state: DialogueState, test: Test) -> list[Path]:
     ]
     if test.place is not None:
         place = test.place
-        found = [(path, node) for path, node in found if _is_at(setting, _place_of(state.plan, path), place)]
+        found = [(path, node) for path, node in found if _is_at(setting, place_of(state.plan, path), place)]
     if not found:
         raise NotComposed(message("nothing before it measures that", context="fault"))
     actions = [node.act.action for _, node in found if node.act is not None]
@@ -275,7 +312,7 @@ def _fits(node: p.Node, test: Test, setting: Setting) -> bool:
     return fits(node, replace(test, unit="") if relative else test, setting.robot)
 
 
-def _place_of(plan: p.InOrder, path: Path) -> s.Selector:
+def place_of(plan: p.InOrder, path: Path) -> s.Selector:
     """Return the place of a capture: its own, that of the visits around it, or that of the last drive before it."""
     node = node_at(plan, path)
     if node.selector is not None:
