@@ -38,7 +38,9 @@ _SOME_ROWS = re.compile(
 
 #: Pattern of the neighbours of several trees.
 _BESIDE_THEM = re.compile(
-    r"\b(?:either|each|both) sides? of (?:them|these|those|each)\b|\btheir (?:\w+ )?neighbou?rs\b"
+    r"\b(?:either|each|both) sides? of (?:them|these|those|each)\b|\b(?:its|their) (?:\w+ )?neighbou?rs\b"
+    r"|\bneighbou?rs of (?:it|them|each)\b"
+    r"|\b(?:plants?|trees?|vines?|ones?) (?:next to|beside|alongside) (?:it|them|each)\b"
 )
 #: Pattern of a half that is named by a place near it, or by words that no map explains.
 _SOME_HALF = re.compile(
@@ -126,6 +128,8 @@ def _rows(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
     for amount in facts.amounts:
         if not _is_row(facts, amount) or _of_named_tree(facts, plan, amount):
             continue
+        if any(True for _ in plan.having(s.Across)):
+            continue  # "the plant opposite in row 2"
         if not any(_holds(row, amount) for _, row in rows) and not _has_named_tree(amount, plan, site):
             what_differs = message(
                 "the request names row {row}, but the plan does not", row=Number(f"{amount.values[0]:g}")

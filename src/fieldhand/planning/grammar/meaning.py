@@ -776,6 +776,7 @@ class Connective:
         purpose: True for "to" before what is done at the place.
         precedes: True for "before".
         in_turn: True for "then" that adds another place ("row 3, then row 4").
+        each: True for "and after each one", before what is done then.
     """
 
     full: bool
@@ -790,6 +791,7 @@ class Connective:
     purpose: bool = False
     precedes: bool = False
     in_turn: bool = False
+    each: bool = False
 
 
 #: Conditions that are checked throughout the mission.

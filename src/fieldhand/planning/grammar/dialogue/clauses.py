@@ -8,7 +8,13 @@ from dataclasses import replace
 from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.allowances import allowed, failing
-from fieldhand.planning.grammar.dialogue.capturing import capture, capture_again, capture_elided, meant_things
+from fieldhand.planning.grammar.dialogue.capturing import (
+    capture,
+    capture_again,
+    capture_elided,
+    is_across_each,
+    meant_things,
+)
 from fieldhand.planning.grammar.dialogue.compared import in_both_cases, is_compared
 from fieldhand.planning.grammar.dialogue.conditions import (
     captured_where,
@@ -270,6 +276,8 @@ def _read(
     joint, command = clause.before, with_known_place(setting, state, command)
     if joint is not None and joint.first:
         return _do_before_last(setting, state, command, joint, following)
+    if joint is not None and joint.each and not is_across_each(state, getattr(command, "place", None)):
+        raise NotComposed(message("it is not clear what is done after each of them", context="fault"))
     if state.plan.steps and isinstance(command, CaptureCommand | DriveCommand | Lead | When | Again):
         state = driven_home(setting, state)
     elided = state.lead is not None and state.lead.relation == "of" and isinstance(command, CaptureCommand)

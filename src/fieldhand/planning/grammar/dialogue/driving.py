@@ -274,6 +274,13 @@ def _way_home(home: Home) -> DriveCommand:
 def put_in_order(setting: Setting, state: DialogueState, command: InAnOrder) -> DialogueState:
     """Return the state with the last for-each in an order; an order that is said first waits for its places."""
     said = setting.spans_of(command.used)
+    if command.by == "any" and command.attribute:  # "always going to the nearest one next"
+        told = message(
+            "'{said}': the places are visited in the order in which all of the drives together are shortest.",
+            context="assumption",
+            said=setting.quoted(command.used),
+        )
+        state, command = with_assumption(state, told), replace(command, attribute="")
     if command.by == "each" and state.area is not None:
         place = replace(state.area.place, each=True)  # "along row 3 tree by tree"
         return replace(state, area=replace(state.area, place=place, used=state.area.used | command.used))
