@@ -43,11 +43,13 @@ class Spots:
         count: Number of places.
         how: Parameter of the captures.
         each: True if there are as many in each of several areas.
+        random: True if they are drawn at random.
     """
 
     count: int
     how: ParameterValue | None = None
     each: bool = False
+    random: bool = False
 
 
 @construction(
@@ -71,6 +73,8 @@ def how_wet_is(noun: Lex, where: s.Selector) -> AskedArea | None:
     "asked: HOWMUCH things=things THEREIS in_ where=region",
     "asked: HOWMUCH things=things IS in_ where=region",
     "asked: WHATIS [DET] [AVERAGEWORD] things=things IS in_ where=region",
+    "asked: COMPAREV [DET] [AVERAGEWORD] things=things in_ where=region",
+    "asked: COMPAREV [DET] [AVERAGEWORD] things=things OF where=region",
     cost=0.2,
 )
 def what_is_the_mean(things: tuple[Thing, ...], where: s.Selector) -> AskedArea | None:
@@ -103,6 +107,12 @@ def spots_in_each(one: Spots) -> Spots | None:
 def so_many_spots(n: int, n2: int | None = None) -> Spots | None:
     """Compose "twelve spots"."""
     return Spots(n) if n2 in (None, n) and n > 1 else None
+
+
+@construction("spots: [TAKE] [AT] n=count RANDOM POINT", "spots: [AT] n=count POINT RANDOM", cost=0.1)
+def so_many_random_spots(n: int) -> Spots | None:
+    """Compose "eight random points"."""
+    return Spots(n, random=True) if n > 1 else None
 
 
 @construction("spots: [TAKE] things=things", cost=0.3)
@@ -142,7 +152,7 @@ def spots_tell(asked: AskedArea, spots: Spots, used: int, site: Site, robot: Rob
     areas = [asked.where] if asked.more is None else [asked.where, asked.more]
     if spots.each != (len(areas) > 1):
         return None
-    parts = [_spread_over(where, spots.count, site) for where in areas]
+    parts = [_spread_over(where, spots.count, site, random=spots.random) for where in areas]
     if any(part is None for part in parts):
         return None
     kept = tuple(part for part in parts if part is not None)
@@ -150,11 +160,13 @@ def spots_tell(asked: AskedArea, spots: Spots, used: int, site: Site, robot: Rob
     return CaptureCommand(things, PlaceMeaning(selector, "several", count=spots.count * len(kept)), used)
 
 
-def _spread_over(where: s.Selector, count: int, site: Site) -> s.Selector | None:
-    """Return so many places spread over an area; None if something is left out of ground that has no plants."""
+def _spread_over(where: s.Selector, count: int, site: Site, *, random: bool) -> s.Selector | None:
+    """Return so many places of an area; None if something is left out of ground that has no plants."""
     ground = bare_ground(where, site)
     if ground is not None:
-        return None if ground.left_out else s.PointsIn(zone=ground.zone, count=count)
+        return None if ground.left_out else s.PointsIn(zone=ground.zone, count=count, random=random)
+    if random:
+        return s.RandomSample(count=count, of=where)
     if are_rows(where) and is_one_row(where):
         return s.Evenly(count=count, of=where)
     return s.Spread(count=count, of=where)

@@ -356,12 +356,13 @@ def one_side_and_the_other() -> str:
 
 @construction(
     "work: one=work [COMMA] [FROM] EACHSIDE", "work: one=work [COMMA] [GO] two_sides",
-    "work: one=work FULLSTOP [GO] two_sides", cost=0.1,
+    "work: one=work FULLSTOP [GO] two_sides", "work: one=work [COMMA] [times=often] [COMMA] ONCE [FROM] EACHSIDE",
+    "work: one=work [COMMA] [FROM] EACHSIDE ONCE", cost=0.1,
 )  # fmt: skip
-def on_both_sides(one: WorkCommand, used: int) -> WorkCommand | None:
+def on_both_sides(one: WorkCommand, used: int, times: int = 2) -> WorkCommand | None:
     """Compose "spray rows 3 to 8 at 300 l/ha from both sides" and "film row 3, one side and then the other"."""
-    fits = one.mode == "rows" and one.sides == "one" and one.along is not None
-    return replace(one, sides="both", used=used) if fits else None
+    fits = one.mode == "rows" and one.sides == "one" and one.along is not None and times == 2
+    return replace(one, laps=1, sides="both", used=used) if fits and one.laps in (1, 2) else None
 
 
 @construction("command: one=work", cost=0.0)

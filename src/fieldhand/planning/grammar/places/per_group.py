@@ -6,7 +6,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import PlaceMeaning
 from fieldhand.planning.grammar.places.sampling import bare_points
-from fieldhand.planning.selections import are_rows, as_zone, is_one_row
+from fieldhand.planning.selections import are_rows, as_where, as_zone, is_one_row
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -25,19 +25,25 @@ def spots_there() -> str:
     return "spots"
 
 
+@construction("in_each_bed: n=count spots_there in_ EACH [OF] ROW [COMMA] [evenly_there]", cost=0.0)
+def so_many_in_each_bed(n: int) -> int:
+    """Compose "three places in each bed"."""
+    return n
+
+
 @construction(
-    "in_each: n=count spots_there INEACH [COMMA] [evenly_there]",
-    "in_each: n=count spots_there in_ EACH [OF] ROW [COMMA] [evenly_there]",
-    "in_each: n=count evenly_there spots_there INEACH",
-    "in_each: n=count INEACH [COMMA] evenly_there",
-    "in_each: n=count READING INEACH [COMMA] evenly_there",
-    "in_each: n=count evenly_there READING INEACH",
-    "in_each: AT share=in_each",
+    "in_each_one: n=count spots_there INEACH [COMMA] [evenly_there]",
+    "in_each_one: n=count evenly_there spots_there INEACH",
+    "in_each_one: n=count INEACH [COMMA] evenly_there",
+    "in_each_one: n=count READING INEACH [COMMA] evenly_there",
+    "in_each_one: n=count evenly_there READING INEACH",
+    "in_each_one: AT n=in_each_one",
+    "in_each: n=in_each_one", "in_each: [AT] n=in_each_bed",
     cost=0.0,
-)
-def so_many_in_each(n: int | None = None, share: int | None = None) -> int | None:
+)  # fmt: skip
+def so_many_in_each(n: int) -> int:
     """Compose "four spots in each, nicely spread out"."""
-    return share if n is None else n
+    return n
 
 
 @construction(
@@ -53,12 +59,30 @@ def of_rows_so_many_each(rows: s.Selector, n: int, more: s.Selector | None = Non
 
 
 @construction(
-    "place: of=crop_area [COMMA] n=in_each", "place: of=crop_area AND [in_] more=crop_area [COMMA] n=in_each", cost=0.1
-)
-def of_crops_so_many_each(of: s.Selector, n: int, more: s.Selector | None = None) -> PlaceMeaning:
+    "place: of=crop_area [COMMA] n=in_each_bed", "place: of=crop_area AND [in_] more=crop_area [COMMA] n=in_each_bed",
+    "place: of=crop_area [COMMA] AT n=in_each_bed",
+    "place: of=crop_area AND [in_] more=crop_area [COMMA] AT n=in_each_bed", cost=0.0,
+)  # fmt: skip
+def of_crops_so_many_each_bed(of: s.Selector, n: int, more: s.Selector | None = None) -> PlaceMeaning:
     """Compose "in the leeks and in the onions, at three places in each bed"."""
     plants = of if more is None else s.UnionOf(parts=(*of.members, *more.members))
     return PlaceMeaning(s.Quota(per="row", count=n, of=plants), "several")
+
+
+@construction(
+    "place: of=crop_area [COMMA] n=in_each_one", "place: of=crop_area AND [in_] more=crop_area [COMMA] n=in_each_one",
+    cost=0.1,
+)  # fmt: skip
+def of_crops_so_many_each(of: s.Selector, n: int, more: s.Selector | None = None) -> PlaceMeaning | None:
+    """Compose "the leeks and the onions, three plants of each", which are of each crop; of one, of each of its beds."""
+    kinds = [as_where(one) for one in (*of.members, *(() if more is None else more.members))]
+    if len(kinds) < 2:
+        return of_crops_so_many_each_bed(of, n)
+    plain = [one.attribute for one in kinds if one is not None and one.of == s.Trees()]
+    if len(plain) < len(kinds) or len(set(plain)) != 1:
+        return None
+    plants = s.UnionOf(parts=tuple(one for one in kinds if one is not None))
+    return PlaceMeaning(s.Quota(per=plain[0], count=n, of=plants), "several")
 
 
 @construction(
