@@ -55,6 +55,8 @@ THAT_GROUND = "that ground"
 DEFAULT_VALUE = ""
 #: Quantity of a test of a reading of the request by its number: "^1" is the first, "^-1" the last.
 NTH_READING = "^"
+#: Quantity of the other side of a test of how far two readings, or two means, are apart.
+DIFFERENCE = "^difference"
 #: Quantity of a test of the latest reading of several ("that one").
 LATEST_READING = "^^"
 

@@ -9,6 +9,7 @@ from fieldhand.places.series_statistics import Statistic
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import (
+    DIFFERENCE,
     NTH_READING,
     SAME_THRESHOLD,
     AllTests,
@@ -234,6 +235,23 @@ def side_of_place(place: PlaceMeaning, noun: Lex | None = None, word: Lex | None
         return None
     quantities = [""] if noun is None else list(dict.fromkeys(noun.value.quantities))
     return [Subject(name, place) for name in quantities]
+
+
+@construction(
+    "test: [DET] DIFFERENCE [OFTHEM] [IS] test=predicate", "test: DET DIFFERENCE BETWEENTHEM [IS] test=predicate",
+    "test: [IT] DIFFER BY more=CMP by=amount", "test: [IT] DIFFER BY [ATLEAST] by=amount",
+    "test: DET count [GROUPNOUN] DIFFER BY more=CMP by=amount",
+    "test: GROUPALL DIFFER BY more=CMP by=amount", "test: GROUPALL DIFFER BY [ATLEAST] by=amount",
+    "test: [IT] IS more=CMP by=amount APART", cost=0.1,
+)  # fmt: skip
+def they_differ(test: Test | None = None, more: Lex | None = None, by: Amount | None = None) -> Test | None:
+    """Compose "the difference is more than 5 degrees" and "they differ by more than 5 degrees", of two readings."""
+    than = Subject(DIFFERENCE)
+    if test is not None:
+        plain = test.check in _COUNTS and not test.negated and test.value != SAME_THRESHOLD and not test.quantity
+        return replace(test, of="mean", than=than) if plain and not test.attribute and not test.of else None
+    bound = "ge" if more is None else _check(more)
+    return None if by is None or bound is None else Test("", bound, by.number, by.unit, of="mean", than=than)
 
 
 @construction(

@@ -41,6 +41,7 @@ from fieldhand.planning.grammar.meaning import (
     UntilCondition,
     WayRule,
     When,
+    WorkCommand,
 )
 from fieldhand.planning.grammar.places.numbers import named_trees
 from fieldhand.planning.grammar.words import Lex
@@ -495,10 +496,10 @@ def first_of_all(first: Connective, one: Command) -> Said:
     return Said((LinkedCommand(first, one),))
 
 
-@construction("said: one=capture FIRSTONE", "said: one=drive FIRSTONE", cost=0.2)
-def what_is_first(one: CaptureCommand | DriveCommand, used: int) -> Said | None:
+@construction("said: one=capture FIRSTONE", "said: one=drive FIRSTONE", "said: one=work FIRSTONE", cost=0.2)
+def what_is_first(one: CaptureCommand | DriveCommand | WorkCommand, used: int) -> Said | None:
     """Compose "photograph tree 4 first"; "photograph trees 4 and 9, tree 9 first" is an order."""
-    places = () if one.place is None else named_places(one.place.selector)
+    places = () if isinstance(one, WorkCommand) or one.place is None else named_places(one.place.selector)
     if len(set(places)) < len(places):
         return None
     return Said((LinkedCommand(Connective(False, True, used & ~one.used), one),))

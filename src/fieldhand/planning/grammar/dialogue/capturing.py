@@ -533,6 +533,8 @@ def _where_it_ended(state: DialogueState, body: Path, condition: Condition) -> t
 def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
     """Return the state after what was done last at a place named at the end ("..., then at the southernmost tree")."""
     lead = state.lead
+    if lead is not None and (worked := _work_elided(setting, state, lead)) is not None:
+        return worked
     if lead is None or not state.things or lead.place.shape not in ("one", "several", "area"):
         return state
     if lead.relation == "topic":
@@ -562,6 +564,18 @@ def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
     of_each = lead.place.shape == "area" and state.where is not None and state.where.shape == "several"
     again = CaptureCommand(things, lead.place, lead.used, relation="of" if of_each else lead.relation)
     return capture(setting, replace(state, lead=None), again)
+
+
+def _work_elided(setting: Setting, state: DialogueState, lead: Lead) -> DialogueState | None:
+    """Return the state after the last work was done at another place, too ("mow the slope, then the wet corner")."""
+    last = state.block.steps[-1].work if state.block.steps else None
+    place = lead.place
+    if last is None or not last.action or place.shape != "area" or place.per is not None or lead.relation == "topic":
+        return None
+    if last.mode not in ("rows", "area") or are_rows(place.selector) != are_rows(last.along) or place.like is not None:
+        return None
+    node = replace(last, id="", along=place.selector, said=setting.spans_of(lead.used))
+    return with_step(replace(state, lead=None), node)
 
 
 def _is_some_of_area(place: PlaceMeaning | None) -> bool:

@@ -7,8 +7,7 @@ from typing import Any, cast
 
 from fieldhand.language import message
 from fieldhand.places import selectors as s
-from fieldhand.planning.grammar.dialogue.plans import Path, walk
-from fieldhand.planning.grammar.dialogue.series import place_of
+from fieldhand.planning.grammar.dialogue.series import sides_measured
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting
 from fieldhand.planning.grammar.meaning import (
     AllTests,
@@ -38,7 +37,7 @@ def in_both_cases(setting: Setting, state: DialogueState, clause: LinkedCommand)
     """
     command = cast(CaptureCommand, clause.command)
     place = cast(PlaceMeaning, command.place)
-    sides = dict.fromkeys(one for path in _measured(setting, state) for one in place_of(state.plan, path).members)
+    sides = sides_measured(setting, state)
     if len(sides) != 2 or place.like is None:
         raise NotComposed(
             message("it is not clear which of them", context="fault"),
@@ -64,14 +63,6 @@ def in_both_cases(setting: Setting, state: DialogueState, clause: LinkedCommand)
         LinkedCommand(None, Otherwise(0)),
         LinkedCommand(None, there),
     )
-
-
-def _measured(setting: Setting, state: DialogueState) -> list[Path]:
-    """Return the paths of the captures that measure what was measured last."""
-    acts = [(path, node.act) for path, node in walk(state.plan) if node.act is not None]
-    measuring = [(path, act) for path, act in acts if act.action in setting.robot.action]
-    measuring = [(path, act) for path, act in measuring if setting.robot.action[act.action].measures]
-    return [path for path, act in measuring if act.action == measuring[-1][1].action]
 
 
 def _some_of(area: PlaceMeaning, count: int | None) -> PlaceMeaning:

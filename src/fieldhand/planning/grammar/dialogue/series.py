@@ -32,6 +32,7 @@ from fieldhand.planning.grammar.dialogue.state import (
 )
 from fieldhand.planning.grammar.dialogue.tested import checked, fits
 from fieldhand.planning.grammar.meaning import (
+    DIFFERENCE,
     NTH_READING,
     AllTests,
     CaptureCommand,
@@ -40,6 +41,7 @@ from fieldhand.planning.grammar.meaning import (
     HowMany,
     LinkedCommand,
     PlaceMeaning,
+    Subject,
     Test,
     When,
     wait_seconds,
@@ -197,6 +199,8 @@ def _known(setting: Setting, test: Test, name: str, quantity: str, unit: str) ->
 def _comparison(setting: Setting, state: DialogueState, test: Test) -> tuple[c.Condition, DialogueState]:
     """Return the comparison of the readings at one place, or in one area, with those at another."""
     other = test.than
+    if other is not None and other.quantity == DIFFERENCE:
+        return _difference(setting, state, test)
     if other is not None and other.quantity.startswith(NTH_READING):
         return _change(setting, state, test, other.quantity)
     if other is None or other.place is None or test.place is None:
@@ -218,6 +222,32 @@ def _comparison(setting: Setting, state: DialogueState, test: Test) -> tuple[c.C
         unit=unit if test.value else "",
     )
     return made, state
+
+
+def sides_measured(setting: Setting, state: DialogueState) -> tuple[s.Selector, ...]:
+    """Return the places at which what was measured last was measured, each once."""
+    acts = [(path, node.act) for path, node in walk(state.plan) if node.act is not None]
+    acts = [(path, act) for path, act in acts if act.action in setting.robot.action]
+    measuring = [(path, act) for path, act in acts if setting.robot.action[act.action].measures]
+    last = measuring[-1][1].action if measuring else ""
+    places = (place_of(state.plan, path) for path, act in measuring if act.action == last)
+    return tuple(dict.fromkeys(one for place in places for one in place.members))
+
+
+def _difference(setting: Setting, state: DialogueState, test: Test) -> tuple[c.Condition, DialogueState]:
+    """Return the test of how far two readings, or the means at two places, are apart, in either direction.
+
+    Raises:
+        NotComposed: Readings were not taken at just two places.
+    """
+    sides = [PlaceMeaning(one, "several") for one in sides_measured(setting, state)]
+    if len(sides) != 2 or test.check not in ("gt", "ge", "lt", "le"):
+        raise NotComposed(message("it is not clear which readings are tested", context="fault"))
+    made: list[c.Condition] = []
+    for one, other in (sides, sides[::-1]):
+        condition, state = _comparison(setting, state, replace(test, place=one, than=Subject(place=other)))
+        made.append(condition)
+    return (c.AnyOf if test.check in ("gt", "ge") else c.AllOf)(conditions=tuple(made)), state
 
 
 def _change(setting: Setting, state: DialogueState, test: Test, other: str) -> tuple[c.Condition, DialogueState]:
