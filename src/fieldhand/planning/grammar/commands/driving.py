@@ -307,6 +307,19 @@ def in_any_order(used: int) -> InAnOrder:
     return InAnOrder("any", "", False, used)
 
 
+@construction(
+    "order: INEACHCASE [GO] [AT] [DET] NEAREST [ONE] [NEXTONE] [LEFT]",
+    "order: [GO] [AT] [DET] NEAREST [ONE] [LEFT] NEXTONE",
+    "order: [GO] [AT] [DET] NEAREST [ONE] [LEFT] INEACHCASE",
+    "order: INEACHCASE [GO] [AT] [DET] NEAREST TREE [NEXTONE] [LEFT]",
+    "order: [GO] [AT] [DET] NEAREST TREE [LEFT] NEXTONE",
+    cost=0.1,
+)  # fmt: skip
+def always_the_nearest(used: int) -> InAnOrder:
+    """Compose "always going to the nearest one next"."""
+    return InAnOrder("any", "nearest", False, used)
+
+
 @construction("lead: place=place", cost=1.6)
 def bare_place(place: PlaceMeaning, used: int) -> Lead | None:
     """Compose "tree 4, ..."."""
