@@ -272,6 +272,7 @@ def composed(
     *,
     words: Sequence[Word] | None = None,
     timing: Timing | None = None,
+    corrected: tuple[Span, ...] = (),
 ) -> Outcome:
     """Return the plan of a request that the grammar covers as a whole, or a question if there are several.
 
@@ -284,14 +285,16 @@ def composed(
         answers: Answers to questions about it.
         words: Words of the request that are to be read; None for all.
         timing: When the mission runs, as the other words say.
+        corrected: Ranges of words whose contradiction an answer has settled.
     """
-    outcome = _composed(request, site, robot, language, answers, words, timing, past=True)
+    when = (timing, corrected)
+    outcome = _composed(request, site, robot, language, answers, words, when, past=True)
     if not isinstance(outcome, Refused):
         return outcome
     read_words = language.words_of(request) if words is None else words
     if not keeps_asides(read_words, edges_of(read_words, language.phrases(robot, site))):
         return outcome
-    without = _composed(request, site, robot, language, answers, words, timing, past=False)
+    without = _composed(request, site, robot, language, answers, words, when, past=False)
     is_present = isinstance(without, Planned) and not uses_records(without.task)
     return without if is_present else outcome  # "the yellow trees are to be photographed today"
 
@@ -303,12 +306,14 @@ def _composed(
     language: GrammarLanguage,
     answers: tuple[Answer, ...],
     words: Sequence[Word] | None,
-    timing: Timing | None,
+    when: tuple[Timing | None, tuple[Span, ...]],
     *,
     past: bool,
 ) -> Outcome:
     found = read(request, site, robot, language, words, past=past)
-    found = replace(found, readings=[replace(reading, timing=timing) for reading in found.readings])
+    timing, corrected = when
+    readings = [replace(one, timing=timing, corrected=(*one.corrected, *corrected)) for one in found.readings]
+    found = replace(found, readings=readings)
     if not found.readings:
         asked = next((fault.what for fault in found.faults if isinstance(fault, OpenQuestion)), None)
         if asked is not None:
