@@ -23,9 +23,11 @@ from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Clarify, Outcome, Planned, Refused
 from fieldhand.robot.loader import load_robot
 from fieldhand.task.plan import walk
+from fieldhand.task.results import Acted
 from planning.english.outlines import outline
 from planning.english.vineyards import ALONG, ROWS, Vine, vines, vineyard
 from support.examples import examples
+from support.missions.flights import fly_task
 
 HUSKY = load_robot("husky")
 BY_ID = {vine.id: vine for vine in vines()}
@@ -274,3 +276,20 @@ def test_a_word_that_no_plan_holds_is_never_dropped_in_silence(base: str) -> Non
             if not timed:
                 silent.append(request)
     assert silent == []
+
+
+def test_as_many_weak_vines_as_possible_are_weak() -> None:
+    """The budget decides how many; nearly all of them are among the weakest quarter, and without a ranking they are not."""
+    ranks = {vine.id: k for k, vine in enumerate(sorted(vines(), key=lambda vine: vine.vigor))}
+    shares = []
+    for request in (
+        "Take as many pictures of weak vines as you can in 10 minutes.",
+        "Take as many pictures of vines as you can in 10 minutes.",
+    ):
+        outcome = outcome_of(request)
+        assert isinstance(outcome, Planned), outcome
+        made = [event.place for event in fly_task(outcome.task, vineyard()).events if isinstance(event, Acted)]
+        assert len(made) > 5
+        shares.append(sum(ranks[place] < len(ranks) / 4 for place in made) / len(made))
+    assert shares[0] > 0.9
+    assert shares[1] < 0.6
