@@ -1,4 +1,4 @@
-"""Numbers of captures beside the steps of a request ("six samples in total"), and wishes to be told what is reported."""
+"""Numbers of captures beside the steps of a request ("six samples in total"), and wishes for what is reported."""
 
 from __future__ import annotations
 
