@@ -1212,7 +1212,7 @@ REFUSED = [
         "Take a picture of the northernmost row.",
         "rows cannot be counted from the north: the rows run north to south",
     ),
-    ("husky", "Take a picture every few trees.", "'few' is not possible yet"),
+    ("husky", "Take a picture every few trees.", "'every few trees': it does not say how far apart"),
     (
         "husky",
         "Photograph the third yellow tree of row 4.# hard and negative forms",
@@ -1293,7 +1293,7 @@ REFUSED = [
     (
         "husky",
         "Take a picture of tree 40. Turn around and go 3 trees back.",
-        "'Turn around' asks for a way of driving: not possible yet",
+        "'trees back' is not possible yet",
     ),
     (
         "husky",
