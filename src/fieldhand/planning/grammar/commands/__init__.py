@@ -7,6 +7,7 @@ from fieldhand.planning.grammar.commands import (
     adjuncts,
     aggregates,
     asked,
+    at_edges,
     bringing,
     captures,
     clauses,
@@ -44,8 +45,8 @@ GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
     exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, earlier,
-    work_wanted, laps, headings, asked, left_standing, to_and_fro, work_sequel, bringing, reported, further_work,
-    counting,
+    work_wanted, laps, headings, asked, left_standing, to_and_fro, work_sequel, at_edges, bringing,
+    reported, further_work, counting,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

@@ -101,6 +101,7 @@ def in_or_over() -> str:
     "asked: HOWMUCH things=things [ONAVERAGE] THEREIS in_ where=asked_of [ONAVERAGE]",
     "asked: HOWMUCH things=things IS in_ where=asked_of [ONAVERAGE]",
     "asked: HOWMUCH things=things in_ where=asked_of [ONAVERAGE]",
+    "asked: HOWMUCH things=things ONAVERAGE in_ where=asked_of",
     "asked: WHATIS [DET] [AVERAGEWORD] things=things [IS] in_ where=asked_of [ONAVERAGE]",
     "asked: ASKMEAN [DET] [AVERAGEWORD] things=things in_ where=asked_of [ONAVERAGE]",
     cost=0.2,

@@ -52,7 +52,7 @@ def spots_listed(first: Spots, last: Spots) -> PlaceMeaning | None:
     made = _both(first, last)
     if not made.grounds or {*first.parts} & {*last.parts}:
         return None
-    if len(made.grounds) == len(made.parts):
+    if len(made.grounds) == len(made.parts) and not any(one in made.parts for one in made.grounds):
         return PlaceMeaning(s.UnionOf(parts=made.grounds), "area")
     return PlaceMeaning(s.UnionOf(parts=made.parts), "several", count=len(made.parts), each=True)
 
