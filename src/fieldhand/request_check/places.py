@@ -44,7 +44,8 @@ _PLANTED_FIRST = re.compile(
 
 #: Pattern of the neighbours of several trees.
 _BESIDE_THEM = re.compile(
-    r"\b(?:either|each|both) sides? of (?:them|these|those|each|it)\b|\b(?:their|its) (?:\w+ )?neighbou?rs\b"
+    r"\b(?:either|each|both) sides? of (?:it|them|these|those|each)\b|\b(?:their|its) (?:\w+ )?neighbou?rs\b"
+    r"|\bplants? (?:\w+ )?(?:next to|beside) (?:it|them|each)\b|\bneighbou?rs? of each\b"
 )
 #: Pattern of a half that is named by a place near it, or by words that no map explains.
 _SOME_HALF = re.compile(
@@ -129,15 +130,16 @@ def _rows(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
     rows = [(node, x) for node, x in plan.having(s.Rows) if isinstance(x, s.Rows)]
     if not all(_NUMBER.fullmatch(name) for _, row in rows for name in (row.first, row.last)):
         return
+    counted_there = _counts_rows_of_area(facts, plan)
     for amount in facts.amounts:
-        if not _is_row(facts, amount) or _of_named_tree(facts, plan, amount):
+        if counted_there or not _is_row(facts, amount) or _of_named_tree(facts, plan, amount):
             continue
         if not any(_holds(row, amount) for _, row in rows) and not _has_named_tree(amount, plan, site):
             what_differs = message(
                 "the request names row {row}, but the plan does not", row=Number(f"{amount.values[0]:g}")
             )
             yield PlanMismatch(kind="place", what=what_differs)
-    if facts.unknown or _SOME_ROWS.search(facts.text) or _PLANTED_FIRST.search(facts.text):
+    if facts.unknown or _SOME_ROWS.search(facts.text) or _PLANTED_FIRST.search(facts.text) or counted_there:
         return
     for node, row in rows:
         for name in dict.fromkeys((row.first, row.last)):
@@ -147,6 +149,12 @@ def _rows(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
                     what=message("the plan names row {name}, but the request does not", name=name),
                     node=node,
                 )
+
+
+def _counts_rows_of_area(facts: RequestFacts, plan: PlanFacts) -> bool:
+    """Return True for "the second row of the cool section", an area of the plan."""
+    names = (re.escape(_name_text(name)) for _, name in plan.areas)
+    return any(re.search(rf"\brow(?: \d+)? (?:in|of) (?:\w+ )?{name}\b", facts.text) for name in names)
 
 
 def _is_named_by_plants(name: str, facts: RequestFacts, site: Site) -> bool:
@@ -222,6 +230,8 @@ def _areas(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
     for name in sorted(facts.zones - held - rows - beds - in_names):
         if name in w.COMPASS and w.COMPASS[name] <= pointed:
             continue  # "from the north" or "the northernmost" does not mean a block called "North"
+        if _is_line_of_lanes(name, facts, plan):
+            continue
         if not any(name in other for other in held) and not _stands_in(plan, name, site):
             yield PlanMismatch(
                 kind="place", what=message("the request names '{name}', but the plan does not", name=name)
@@ -242,6 +252,14 @@ def _areas(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
         )
     if facts.words & _CHARGER and "charger" not in plan.markers and not facts.words & {"recharge", "recharging"}:
         yield PlanMismatch(kind="place", what=message("the request names the charger, but the plan does not"))
+
+
+def _is_line_of_lanes(name: str, facts: RequestFacts, plan: PlanFacts) -> bool:
+    """Return True if the lanes of a plan run in a direction, and the request names what they are parallel to."""
+    said = re.search(
+        rf"\b(?:parallel (?:to|with)|in line with|lined up with|line of) (?:\w+ )?{re.escape(name)}\b", facts.text
+    )
+    return said is not None and any(one.heading != "any" for one in plan.works)
 
 
 def _is_a_row_of(name: str, plan: PlanFacts) -> bool:

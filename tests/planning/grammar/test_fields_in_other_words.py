@@ -677,7 +677,7 @@ REFUSED = [
         GARDEN,
         TRACTOR,
         "spray half of bed 4 at 200 l/ha",
-        "'spray half of bed 4': this is done while driving along a path, not at single trees",
+        "'spray half of bed 4': work along a row is done along the whole row: a part of it cannot be said yet",
     ),
     (
         GARDEN,

@@ -125,3 +125,37 @@ def test_a_correction_is_no_wait() -> None:
     outcome = EnglishPlanner().plan("photograph tree 4, wait, tree 9", DEMO, HUSKY)
     assert isinstance(outcome, Planned)
     assert outline(outcome.task).startswith("picture @ TreeIs(9)")
+
+
+VIEWS = [
+    (
+        PASTURE,
+        "photograph the ground every 5 m along the edge of the bank",
+        "for Transect(5, edge, bank): [picture(view ground)]",
+    ),
+    (
+        PASTURE,
+        "photograph the ground along the edge of the bank, every 5 m",
+        "for Transect(5, edge, bank): [picture(view ground)]",
+    ),
+    (
+        PASTURE,
+        "every 5 m along the edge of the bank, photograph the ground",
+        "for Transect(5, edge, bank): [picture(view ground)]",
+    ),
+    (PASTURE, "photograph the ground at eight points on the bank", "for PointsIn(bank, 8): [picture(view ground)]"),
+    (GLASSHOUSE, "photograph the ground every 2 m along row 4", "for Spaced(2, of Rows(4, 4)): [picture(view ground)]"),
+    (GLASSHOUSE, "photograph the trunk of H1-3 twice", "picture(view trunk) x2 @ TreeIs(H1-3)"),
+    (GLASSHOUSE, "photograph the trunks in row 4", "for Rows(4, 4): [picture(view trunk)]"),
+    (GLASSHOUSE, "at H1-3, photograph the trunk", "go TreeIs(H1-3); picture(view trunk)"),
+    (
+        GLASSHOUSE,
+        "at each melon photograph the ground and take a leaf",
+        "for Where(crop, eq, melon): [picture(view ground); sample_leaf]",
+    ),
+]
+
+
+@pytest.mark.parametrize(("site", "request_", "plan"), VIEWS, ids=name)
+def test_a_part_is_photographed_wherever_pictures_are_taken(site: Site, request_: str, plan: str) -> None:
+    require_plan(site, AMIGA, request_, plan)

@@ -289,6 +289,7 @@ class DriveCommand:
         ends: True if nothing is done behind it ("ending at the charger").
         instead: True if what another case has is done there ("go five trees south instead").
         pace: Speed of the drive, if the phrase says it ("drive slowly to tree 4").
+        to: True for a drive to an area, and not around it or through it.
     """
 
     place: PlaceMeaning
@@ -300,6 +301,7 @@ class DriveCommand:
     ends: bool = False
     instead: bool = False
     pace: PaceClause | None = None
+    to: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -315,6 +317,7 @@ class WorkCommand:
         rest_s: Seconds of rest between laps.
         rests_last: True if it rests after the last lap as well.
         back: True if it is done on the way back from the work before it, in the other direction.
+        edge_side: Side of an edge on which the phrase says that it drives.
     """
 
     action: str
@@ -330,6 +333,7 @@ class WorkCommand:
     rest_s: float = 0.0
     rests_last: bool = False
     back: bool = False
+    edge_side: Literal["", "inside", "outside"] = ""
 
 
 @dataclass(frozen=True, slots=True)

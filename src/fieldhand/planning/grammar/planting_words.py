@@ -16,13 +16,15 @@ from fieldhand.site.model import Site
 
 How = Literal["lt", "gt", "le", "ge", "by", "in", "between"]
 
-#: Words of work that begins with a plant, as they stand in the names of attributes and in requests.
+#: Words of work that begins with a plant, as requests have them.
 _WORDS = {
-    "sow": "sown|sowed|sow|sowing|seeded|seeding|drilled|direct sown|direct seeded",
-    "plant": "planted|plant|planting|planted out|put in|put out|set|set out|bedded out|replanted",
-    "transplant": "transplanted|transplant|transplanting|pricked out|potted|potted on|potted up",
+    "sow": "sown|sowed|sowing|seeded|seeding|drilled|direct sown|direct seeded",
+    "plant": "planted|planting|planted out|put in|put out|set out|bedded out|replanted",
+    "transplant": "transplanted|transplanting|pricked out|potted|potted on|potted up",
     "graft": "grafted|grafting",
 }
+#: Further words for these in the names of attributes.
+_IN_NAMES = {"sow": {"sow"}, "plant": {"plant", "set"}, "transplant": {"transplant"}, "graft": {"graft"}}
 _VERB = "|".join(sorted((word for words in _WORDS.values() for word in words.split("|")), key=len, reverse=True))
 _SAID = (
     r"(?:(?:we|i|they|you) (?:have |had )?)?(?:(?:was|were|been|is|are|have been|has been) )?"
@@ -157,7 +159,7 @@ def planting_attributes(site: Site) -> dict[str, set[str]]:
         found: dict[str, set[str]] = {}
         for name, values in site.attributes.items():
             words = name_words(name)
-            stems = {stem for stem, forms in _WORDS.items() if {*forms.split("|")} & {*words}}
+            stems = {stem for stem, forms in _WORDS.items() if ({*forms.split("|")} | _IN_NAMES[stem]) & {*words}}
             if stems and all(is_date(value) or _is_year(value) for value in values):
                 found[name] = stems
         site.cache["planting"] = found

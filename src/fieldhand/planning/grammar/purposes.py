@@ -90,6 +90,7 @@ _NO_STATEMENT = _NEVER | frozenset(
 #: Words with which a statement begins, and what somebody finds that it is like.
 _SUBJECTS = frozenset({"today", "tomorrow", "something", "somebody", "someone", "nothing"})
 _OURS = frozenset({"i", "we", "i'm", "we're", "they", "they're"})
+_SEARCHES = frozenset({"check", "inspect", "examine", "survey", "search", "scan"})
 _COMES = frozenset({"come", "comes", "go", "goes", "are", "is"})
 _LOOKS = frozenset({"look", "looks", "looked", "feel", "feels", "felt", "seem", "seems", "smell", "smells"})
 
@@ -104,6 +105,8 @@ def statement(sentence: Sequence[int], known: WordKinds) -> Telling | None:
         sentence: Numbers of the words of the sentence, its commas among them.
         known: What the words of the request can be.
     """
+    if (search := _search(sentence, known)) is not None:
+        return search
     said = [k for k in sentence if "FILLER" not in known.kinds[k] or "TELLS" in known.kinds[k]]
     if len(said) < 3 or not _is_subject(said, known):
         return None
@@ -131,6 +134,20 @@ def statement(sentence: Sequence[int], known: WordKinds) -> Telling | None:
     if any(known.words[k].norm == "first" for k in body) and not _is_named_first(places, max(told) + 1, known):
         return None
     return _named_again(places, told, said, known)
+
+
+def _search(sentence: Sequence[int], known: WordKinds) -> Telling | None:
+    """Return what "check the fence for holes: film it" looks for, before the command that serves it."""
+    end = next((at for at, k in enumerate(sentence) if known.words[k].text in _COLONS), 0)
+    body = sentence[:end]
+    if not body or known.words[body[0]].norm not in _SEARCHES or not _refers_back(sentence[end], known):
+        return None
+    places = _places(body, known)
+    sought = next((at for at, k in enumerate(body) if known.words[k].norm == "for"), 0)
+    if len(places) != 1 or not sought or places[0] != body[1:sought] or any(known.kinds[k] for k in body[sought + 1 :]):
+        return None
+    told = frozenset(sentence[: end + 1])
+    return Telling(left_out=told - {*places[0], body[sought]}, topic=body[sought])
 
 
 def _without_quality(run: Sequence[int], known: WordKinds) -> Sequence[int]:

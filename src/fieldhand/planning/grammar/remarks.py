@@ -30,6 +30,8 @@ _ASKING = frozenset(
 )  # fmt: skip
 #: Categories that ask for something even in a reason ("so we can check ..." gives a reason, "to photograph row 4" not).
 _ASKING_IN_REASON = _ASKING - {"MEASURE", "TAKE", "GO", "USE", "IF", "WHETHER", "LEVEL", "ACTV", "RETURN", "REPEAT"}
+#: Categories of words that may say what a study is about.
+_OF_STUDIES = frozenset({"DET", "GROUND", "NOUN", "OWNER", "PAPERWORK", "READING"})
 #: Categories of words that an aside may have beside unknown ones ("for the lab").
 _IN_ASIDES = frozenset(
     {"DET", "FOR", "FILLER", "IT", "IS", "WHICH", "OF", "MORE", "QUESTION", "THATWORD", "AT", "AS", "TELLS", "MEASURE"}
@@ -157,6 +159,7 @@ def without_remarks(
             if tells and not aside:
                 aside = _because(clause, known) or _before_people(clause, known)
                 aside = aside or (clause if _is_apposition(clause, said, words, kinds) else ())
+                aside = aside or (clause if clause[0] == said[0] and _is_for_study(clause, kinds) else ())
             if tells and not aside and telling(clause, known, sentence=False) is not None:
                 aside = clause
             if aside and len(aside) < len(said):
@@ -295,8 +298,16 @@ def _for_what(said: Sequence[int], purposes: Mapping[int, int], kinds: Sequence[
     length = sum(k < end for k in said)
     while length < len(said) and kinds[said[length]] & {"DET", "PAPERWORK"}:
         length += 1
-    told = length > 1 and (said[0] in purposes or "PAPERWORK" in kinds[said[length - 1]])
+    study = next((at for at, k in enumerate(said[:5]) if at > 1 and _is_for_study(said[: at + 1], kinds)), 0)
+    length = max(length, study + 1)
+    told = length > 1 and (said[0] in purposes or study > 0 or "PAPERWORK" in kinds[said[length - 1]])
     return said[:length] if told and length < len(said) and kinds[said[length]] & _WHO_ASKS else ()
+
+
+def _is_for_study(clause: Sequence[int], kinds: Sequence[set[str]]) -> bool:
+    """Return True for what work is for, by what is studied: "for the nitrogen trial"; a place is named by the work."""
+    begins, ends = "FOR" in kinds[clause[0]], bool(kinds[clause[-1]] & {"HEADING", "PAPERWORK"})
+    return begins and ends and all(not kinds[k] or kinds[k] & _OF_STUDIES for k in clause[1:-1])
 
 
 def _reason(clause: Sequence[int], reasons: set[int], kinds: Sequence[set[str]]) -> Sequence[int]:

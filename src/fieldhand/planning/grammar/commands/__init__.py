@@ -7,6 +7,7 @@ from fieldhand.planning.grammar.commands import (
     adjuncts,
     aggregates,
     asked,
+    asked_places,
     at_edges,
     bringing,
     captures,
@@ -35,6 +36,7 @@ from fieldhand.planning.grammar.commands import (
     to_and_fro,
     waits,
     ways,
+    which_of_two,
     work_sequel,
     work_wanted,
     working,
@@ -46,7 +48,7 @@ _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
     exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, earlier,
     work_wanted, laps, headings, asked, left_standing, to_and_fro, work_sequel, at_edges, bringing,
-    reported, further_work, counting,
+    reported, further_work, counting, which_of_two, asked_places,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

@@ -48,6 +48,16 @@ def here(word: Lex) -> PlaceMeaning:
 
 
 @construction(
+    "here: AT word=EACH [DET] noun=TREE", "here: OF word=EACH [DET] noun=TREE", "here: AT word=EACH [DET] noun=POINT",
+    cost=0.1,
+)  # fmt: skip
+def at_both(word: Lex, noun: Lex) -> PlaceMeaning | None:
+    """Compose "at both plants", of two that were named."""
+    two = "two" in word.features and noun.text.endswith("s")
+    return PlaceMeaning(s.Here(), "those", each=True, count=2) if two else None
+
+
+@construction(
     "capture: READING relation place=place COMMA things=things",
     "capture: things=things COMMA trees=numbers",
     "capture: [verb] things=things AT trees=numbers",

@@ -14,7 +14,8 @@ from typing import Any, Literal
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import LAST_THING, CaptureCommand, PlaceMeaning, Thing
+from fieldhand.planning.grammar.commands.parameters import with_parameter
+from fieldhand.planning.grammar.meaning import LAST_THING, CaptureCommand, ParameterValue, PlaceMeaning, Thing
 from fieldhand.planning.grammar.places.vague import as_many_of_best
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_every_nth, as_some, is_across
@@ -161,6 +162,13 @@ def act_part(verb: Lex) -> Clause:
     return _part("a", verb=verb)
 
 
+@construction("part: verb=ACTV how=parameter", cost=0.2, given=("robot",))
+def act_on_part(verb: Lex, how: ParameterValue, robot: RobotProfile) -> Clause | None:
+    """Compose "photograph the trunk"."""
+    made = with_parameter(Thing(verb.value.actions[0]), how, robot) if isinstance(how.value, str) else None
+    return None if made is None else _part("a", verb=verb, things=(made,))
+
+
 @construction("part: GO [towards] place=place", "part: VISIT place=place", cost=0.2)
 def go_part(place: PlaceMeaning) -> Clause | None:
     """Compose "go to tree 4"."""
@@ -279,6 +287,8 @@ def next_part(clause: Clause, part: Clause, robot: RobotProfile) -> Clause | Non
         return None  # "a picture of the ground" is one of its views
     if order not in _BEGINNINGS or (clause.place is not None and part.place is not None):
         return None
+    if clause.things and part.things:
+        return None  # "photograph the trunk" names what is captured
     is_done = order == "ba" and part.verb is not None and "participle" in part.verb.features  # "tree 4 photographed"
     if order in _STOPS_FIRST and not clause.adjuncts and not is_done:
         return None  # "at tree 4 take a picture" is a place, and a command that is done there
@@ -418,7 +428,7 @@ def _act(clause: Clause, used: int) -> CaptureCommand | None:
         return CaptureCommand(once(things), clause.place, used)
     if clause.place is None:
         return CaptureCommand(things, None, used)
-    if clause.place.shape == "area" and not clause.things:  # "photograph row 3": each of its trees
+    if clause.place.shape == "area" and "t" not in clause.order:  # "photograph row 3": each of its trees
         things = tuple(replace(one, plural=True) for one in things)
     return CaptureCommand(things, clause.place, used, relation=clause.relation if "t" in clause.order else "of")
 

@@ -159,12 +159,12 @@ def end_on_ground(word: Lex, where: s.Selector, used: int, site: Site) -> DriveC
     return DriveCommand(PlaceMeaning(middle, "one"), used, returns=True, ends="ends_there" in word.features)
 
 
-@construction("drive: GO way=ALONG where=region", "drive: GO AT where=region", "drive: GO where=region", cost=0.2)
-def drive_along(where: s.Selector, used: int, way: Lex | None = None) -> DriveCommand:
+@construction("drive: GO way=ALONG where=region", "drive: GO to=AT where=region", "drive: GO where=region", cost=0.2)
+def drive_along(where: s.Selector, used: int, way: Lex | None = None, to: Lex | None = None) -> DriveCommand:
     """Compose "drive along row 3"."""
     place = PlaceMeaning(where, "area")
     if way is None:
-        return DriveCommand(place, used)
+        return DriveCommand(place, used, to=to is not None and not to.features.isdisjoint({"motion", "within"}))
     along: Along = "up" if "upwards" in way.features else "down" if "downwards" in way.features else "along"
     return DriveCommand(place, used, along=along)
 

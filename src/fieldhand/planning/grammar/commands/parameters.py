@@ -11,6 +11,7 @@ from fieldhand.planning.grammar.meaning import (
     DEFAULT_VALUE,
     LAST_THING,
     SAME_VALUE,
+    UNSAID_THING,
     Amount,
     CaptureCommand,
     DriveCommand,
@@ -20,7 +21,6 @@ from fieldhand.planning.grammar.meaning import (
     LimitClause,
     LinkedCommand,
     ParameterValue,
-    PlaceMeaning,
     Said,
     StopCommand,
     Thing,
@@ -91,6 +91,19 @@ def setting(
     if choice is not None:
         return [value for value in chosen(choice) if value.names[0] in names] or None
     return [ParameterValue(amount.number, amount.unit, names) if amount else ParameterValue(DEFAULT_VALUE, "", names)]
+
+
+@construction(
+    "pushed: PUSHPROBE [PROBEDOWN] amount=amount",
+    "pushed: PUSHPROBE amount=amount DOWNTO",
+    "pushed: PUSHPROBE amount=amount name=PARAMETER",
+    "pushed: PUSHPROBE [PROBEDOWN] [DET] name=PARAMETER OF amount=amount",
+    cost=0.1,
+)
+def pushed(amount: Amount, name: Lex | None = None) -> ParameterValue | None:
+    """Compose "push the probe down to 25 cm"."""
+    names = () if name is None else tuple(name.value)
+    return ParameterValue(amount.number, amount.unit, names) if amount.unit == "metres" else None
 
 
 @construction("parameter: how=setting", cost=0.1)
@@ -196,22 +209,6 @@ def noun_of(choice: Lex, noun: Lex, robot: RobotProfile, name: Lex | None = None
 
 
 @construction(
-    "capture: verb=ACTV how=parameter relation place=place",
-    "capture: verb=ACTV how=parameter",
-    cost=0.3,
-    given=("robot",),
-)
-def act_on_part(
-    verb: Lex, how: ParameterValue, used: int, robot: RobotProfile, place: PlaceMeaning | None = None
-) -> CaptureCommand | None:
-    """Compose "photograph the trunk of tree 4"."""
-    made = with_parameter(Thing(verb.value.actions[0]), how, robot)
-    return (
-        None if made is None or not isinstance(how.value, str) else CaptureCommand((made,), place, used, relation="of")
-    )
-
-
-@construction(
     "capture: said=capture [COMMA] how=parameter",
     "capture: said=capture [COMMA] [AND] THISTIME how=parameter",
     "capture: said=capture [COMMA] named=setting",
@@ -248,6 +245,8 @@ def capture_with(
 @construction(
     "said: before=said FULLSTOP how=setting",
     "said: before=said COMMA how=setting",
+    "said: before=said [COMMA] [AND] how=pushed",
+    "said: before=said FULLSTOP how=pushed",
     "said: how=setting FULLSTOP before=said",
     cost=0.3,
     given=("robot",),
@@ -255,6 +254,7 @@ def capture_with(
 def setting_of_all(before: Said, how: ParameterValue, used: int, robot: RobotProfile) -> list[Said] | None:
     """Compose "moisture at trees 4 and 9. Depth: 10 cm.", of all captures that have the parameter or of the last."""
     own, made = used, dict[int, LinkedCommand]()
+    unsaid = [number for number, one in enumerate(before.clauses) if _is_unsaid(one)]
     for clause in before.clauses:
         if not isinstance(clause.command, _PLAIN):
             return None
@@ -264,11 +264,32 @@ def setting_of_all(before: Said, how: ParameterValue, used: int, robot: RobotPro
         if isinstance(command, CaptureCommand):
             changed = capture_with(command, command.used, robot, named=how)
             made |= {} if changed is None else {number: replace(clause, command=changed)}
+    if unsaid and not made:
+        return _each_probed_so(before, unsaid[-1], how, own, robot)
     if made:
         last = made[max(made)]
         made[max(made)] = replace(last, command=replace(last.command, used=last.command.used | own))
     ways = (made, {max(made): made[max(made)]}) if len(made) > 1 else (made,) if made else ()
     return [Said(tuple(way.get(k, clause) for k, clause in enumerate(before.clauses))) for way in ways]
+
+
+def _is_unsaid(clause: LinkedCommand) -> bool:
+    """Return True for a capture that its command does not name ("check tree 4")."""
+    command = clause.command
+    return isinstance(command, CaptureCommand) and [one.action for one in command.things] == [UNSAID_THING]
+
+
+def _each_probed_so(before: Said, number: int, how: ParameterValue, own: int, robot: RobotProfile) -> list[Said]:
+    """Return commands with each capture that has such a parameter for the one that is not named."""
+    found: list[Said] = []
+    clause = before.clauses[number]
+    command = clause.command
+    for action in robot.actions if isinstance(command, CaptureCommand) else ():
+        made = with_parameter(replace(command.things[0], action=action.name, verb=""), how, robot)
+        if made is not None:
+            one = replace(clause, command=replace(command, things=(made,), used=command.used | own))
+            found.append(Said((*before.clauses[:number], one, *before.clauses[number + 1 :])))
+    return found
 
 
 @construction(

@@ -44,6 +44,7 @@ from fieldhand.planning.grammar.meaning import (
     WorkCommand,
 )
 from fieldhand.planning.grammar.places.numbers import named_trees
+from fieldhand.planning.grammar.places.sampling import bare_zone
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_excluding, named_places, swapped
 from fieldhand.site.model import Site
@@ -418,11 +419,15 @@ def take_instead(things: tuple[Thing, ...], used: int, place: PlaceMeaning | Non
     return CaptureCommand(things, place, used, instead=True)
 
 
-@construction("capture: things=things OF place=place", cost=1.2)
-def another_of_each(things: tuple[Thing, ...], place: PlaceMeaning, used: int) -> CaptureCommand | None:
-    """Compose "(and then) one of the tree on each side of it"."""
+@construction("capture: things=things OF place=place", "capture: ONE OF place=place", cost=1.2, given=("site",))
+def another_of_each(
+    place: PlaceMeaning, used: int, site: Site, things: tuple[Thing, ...] = (Thing(LAST_THING, count=1),)
+) -> CaptureCommand | None:
+    """Compose "(and then) one of the tree on each side of it" and "(followed by) one of the trough"."""
     one_more = [(one.action, one.count) for one in things] == [(LAST_THING, 1)]
-    return CaptureCommand(things, place, used, relation="of") if one_more and place.each else None
+    free = bool(bare_zone(place.selector, site)) if place.shape == "area" else place.shape == "one"
+    named = free and not place.refers_back and (place.shape == "area" or place.selector.named_tree)
+    return CaptureCommand(things, place, used, relation="of") if one_more and (place.each or named) else None
 
 
 @construction("thing: DET SAME reading=READING", cost=0.5)
@@ -541,6 +546,12 @@ def first_captured(before: Said, joint: Connective, tests: AllTests, act: Captur
 def first_command(one: Command) -> Said:
     """Compose "take a picture"."""
     return Said((LinkedCommand(None, one),))
+
+
+@construction("said: WITH one=capture", cost=0.6)
+def begins_with(one: CaptureCommand, used: int) -> Said:
+    """Compose "(start at sunrise) with a picture of tree 4", of which the time is read by itself."""
+    return Said((LinkedCommand(None, replace(one, used=used)),))
 
 
 @construction(

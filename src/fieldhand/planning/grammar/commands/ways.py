@@ -35,7 +35,7 @@ def keep_out(place: PlaceMeaning, used: int) -> WayRule | None:
     return None if places is None else WayRule(tuple((one, 0.0) for one in places), left_out=places, used=used)
 
 
-@construction("way_rule: WITHOUT PASSES place=place", "way_rule: word=NOT THROUGH place=place", cost=0.2)
+@construction("way_rule: WITHOUT PASSES place=place [ITSELF]", "way_rule: word=NOT THROUGH place=place", cost=0.2)
 def not_through(place: PlaceMeaning, used: int, word: Lex | None = None) -> WayRule | None:
     """Compose "do not drive through row 10" and "not through row 10"."""
     del word
@@ -63,6 +63,11 @@ def around(place: PlaceMeaning, used: int) -> WayRule | None:
     "way_rule: COMES NOCLOSER far=amount FROM place=place",
     "way_rule: COMES NOCLOSER far=amount AT place=place",
     "way_rule: WITHOUT COMES INSIDE far=amount OF place=place",
+    "way_rule: NONEWITHIN far=amount OF place=place",
+    "way_rule: NONEWITHIN far=amount FROM place=place",
+    "way_rule: NONEWITHIN far=amount AT place=place",
+    "way_rule: ATLEAST far=amount FROM place=place",
+    "way_rule: ATLEAST far=amount CLEAROF place=place",
     "way_rule: WITHOUT COMES closer=CLOSER far=amount AT place=place",
     "way_rule: WITHOUT COMES closer=CLOSER far=amount FROM place=place",
     cost=0.2,

@@ -36,6 +36,7 @@ class Tract:
         every: 2 for every second aisle.
         along: True if the phrase says "along".
         optional: True for as much of it as the budget allows.
+        solid: True for what the robot drives around, and whose ground is not worked ("film the pond").
     """
 
     selector: s.Selector
@@ -44,6 +45,7 @@ class Tract:
     every: int = 1
     along: bool = False
     optional: bool = False
+    solid: bool = False
 
 
 @construction(
@@ -268,6 +270,8 @@ def along_tract(command: WorkCommand, where: Tract, robot: RobotProfile) -> list
     """Return work along a tract, in each way that it may be meant."""
     implement = robot.action[command.action].implement
     covers = implement is not None and implement.covers
+    if covers and where.solid:
+        return []
     mode = where.mode or ("area" if covers else "rows")
     command = replace(command, along=where.selector, mode=mode, sides=where.sides, every=where.every)
     command = replace(command, optional=where.optional)

@@ -68,6 +68,7 @@ from fieldhand.planning.grammar.meaning import (
     Thing,
 )
 from fieldhand.planning.grammar.places.compass import AWAY_FROM
+from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.selections import (
     AREAS,
     anchors,
@@ -129,6 +130,8 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
         mark = landmark_of(state.where.selector, place.selector)  # "the tree next to the pond and one farthest from it"
         place = place if mark is None else replace(place, selector=swapped(place.selector, s.Here(), mark))
     place = _those_again(state, place)
+    if place is not None and place.shape == "those" and place.each and place.count:
+        place = _as_many_as_named(setting, state, place)
     if place is not None and place.shape == "those" and (place.count or place.at_most):
         return _at_some_of_those(state, replace(command, things=things), place, whole)
     if place is not None and state.where is None and not state.plan.steps:
@@ -424,6 +427,19 @@ def _lines_at_each(
     state = with_step(replace(state, scope=inside), spots)
     state = _with_captures(state, command.things, command.times, said, (*inside, 0, "body"))
     return replace(done_at(state, place), things=command.things, scope=inside[:-2], loop=inside)
+
+
+def _as_many_as_named(setting: Setting, state: DialogueState, place: PlaceMeaning) -> PlaceMeaning:
+    """Return "both plants" as those that were named before.
+
+    Raises:
+        NotComposed: Not so many were named.
+    """
+    before = state.where
+    named = None if before is None else before.count or len(ids_of(before.selector, setting.site) or ())
+    if named not in (None, 0, place.count):
+        raise NotComposed(message("it is not clear which of them", context="fault"))
+    return replace(place, count=None)
 
 
 def _at_some_of_those(state: DialogueState, command: CaptureCommand, place: PlaceMeaning, said: Spans) -> DialogueState:

@@ -182,6 +182,8 @@ def _ended(setting: Setting, state: DialogueState) -> DialogueState:
     for _, node in walk(state.plan):
         if (loop := as_for_each(node)) is not None and _visits_open_number(loop):
             raise NotComposed(message("how many of the others?", context="fault"))
+        if loop is not None and loop.at_most is not None and all(step.only_drives for step in loop.body.children):
+            raise NotComposed(_IDLE, advice=_WHAT_THERE)  # "(photograph the leeks,) but visit at most ten plants"
         if loop is not None and has_open_number(loop.select):
             said = setting.request.rstrip(" .")
             raise OpenQuestion(message("'{said}': at how many places?", context="question", said=said))
@@ -317,6 +319,8 @@ def _read(
                 not isinstance(one.command, LimitClause | RechargeClause | WayRule) for one in following
             ):
                 raise NotComposed(message("something follows the end of the mission", context="fault"))
+            if joint is not None and (joint.full or joint.then or joint.both):
+                state = driven_to_ground(setting, state)
             if following and _chooses_among(command, following[0].command):
                 command = replace(command, place=replace(command.place, shape="area"))
             driven = drive(setting, state, command)

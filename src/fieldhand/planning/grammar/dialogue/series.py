@@ -266,10 +266,9 @@ def _is_at(setting: Setting, selector: s.Selector, place: PlaceMeaning) -> bool:
     if selector == place.selector or place.selector in tuple(selector.walk()):
         return True
     zone = as_zone(place.selector)
-    if zone is not None and not zone.outside and not zone.margin_m and zone.of == s.Trees():
-        is_free = getattr(selector, "zone", "") == zone.zone and getattr(selector, "part", "") == "all"
-        if is_free:  # points of the zone
-            return True
+    named = zone is not None and zone == s.InZone(zone=zone.zone) and getattr(selector, "zone", "") == zone.zone
+    if named and getattr(selector, "part", "") == "all":
+        return True  # free points of the zone
     if are_rows(place.selector) and not is_in_block(place.selector):
         rows = {over(place.selector, block) for block in blocks_of(selector)}
         return bool(rows & set(selector.walk()))

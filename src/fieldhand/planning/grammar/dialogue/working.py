@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from fieldhand.language import message
 from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.commands.laps import goes_around, is_thin
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, Spans, with_step
 from fieldhand.planning.grammar.meaning import DriveCommand, WorkCommand
 from fieldhand.planning.grammar.places.sampling import bare_points, is_keep_out
@@ -47,6 +48,10 @@ def work_along(setting: Setting, state: DialogueState, command: WorkCommand) -> 
             raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
         said = (*setting.spans_of(area.used), *said)
         state = replace(state, area=None, lead=None)
+    if mode == "rows" and command.along is None and is_keep_out(along, setting.site):
+        mode = "perimeter"
+    if command.edge_side:
+        _require_side(setting, command, along, mode)
     node = p.WorkAlong(
         action=command.action,
         parameters=command.parameters,
@@ -97,13 +102,36 @@ def driven_along(setting: Setting, state: DialogueState) -> DialogueState:
     return with_step(replace(state, area=None), node)
 
 
+def _require_side(setting: Setting, command: WorkCommand, along: s.Selector, mode: str) -> None:
+    """Refuse a side of an edge that is not the one on which the robot drives anyway.
+
+    It drives inside a fence that stands around the site, around what is solid, and on both sides of any other fence.
+
+    Raises:
+        NotComposed: It drives elsewhere.
+    """
+    fence = is_keep_out(along, setting.site)
+    inside = fence and goes_around(along, setting.site)
+    around = fence and not is_thin(along, setting.site)
+    if mode == "perimeter" and {"inside": inside, "outside": around}[command.edge_side]:
+        return
+    if mode == "perimeter" and not fence and command.edge_side == "inside":
+        return
+    raise NotComposed(
+        message("on which side of it the robot drives cannot be said yet", context="fault"),
+        advice=message("leave the side out: it drives along both sides of a fence where it can"),
+    )
+
+
 def driven_to_ground(setting: Setting, state: DialogueState) -> DialogueState:
     """Return the state after a drive to ground where nothing is said to be done ("then go to the trough")."""
     area = state.area
     if area is None or state.lead is not None or area.along or area.begins or area.returns:
         return state
+    if is_keep_out(area.place.selector, setting.site) or not area.to:
+        return state
     middle = bare_points(area.place.selector, setting.site, 1) if area.place.shape == "area" else None
-    if middle is None or is_keep_out(area.place.selector, setting.site):
+    if middle is None:
         return state
     return with_step(replace(state, area=None), p.GoTo(id="", place=middle, said=setting.spans_of(area.used)))
 

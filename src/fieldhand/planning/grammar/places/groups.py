@@ -8,7 +8,7 @@ from typing import cast
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning, Shape
-from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.places.numbered import are_two, ids_of
 from fieldhand.planning.grammar.places.quantities import article, quantified, unquantified
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
@@ -297,13 +297,15 @@ def it(word: Lex) -> PlaceMeaning:
     return PlaceMeaning(s.Here(), "those" if "of_several" in word.features else "here")
 
 
-@construction("place: word=EACH OF place=place", "place: word=EACH place=place", cost=0.4)
-def each_of_group(word: Lex, place: PlaceMeaning) -> PlaceMeaning | None:
+@construction("place: word=EACH OF place=place", "place: word=EACH place=place", cost=0.4, given=("site",))
+def each_of_group(word: Lex, place: PlaceMeaning, site: Site) -> PlaceMeaning | None:
     """Compose "each of the 5 oldest trees"."""
     if "all_of" in word.features or place.shape != "several" or place.each or as_some(place.selector) is not None:
         return None
     if "every" in word.features or ("two" in word.features and place.count not in (None, 2)):
         return None
+    if "two" in word.features and not are_two(place.selector, site):
+        return None  # "both trees", of two that were named
     if place.optional or place.at_most is not None or place.per is not None:
         return None
     return replace(place, each=True)
