@@ -6,7 +6,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Clause
 from fieldhand.planning.grammar.meaning import DriveCommand, PlaceMeaning
-from fieldhand.planning.grammar.places.listed_spots import Spots
+from fieldhand.planning.grammar.places.listed_spots import SpotList
 from fieldhand.planning.grammar.places.sampling import is_keep_out
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.site.model import Site
@@ -29,9 +29,9 @@ def edge_part(where: s.Selector) -> Clause:
 
 
 @construction("spot_item: where=at_edge", cost=0.1)
-def edge_item(where: s.Selector) -> Spots:
+def edge_item(where: s.Selector) -> SpotList:
     """Compose "at the pond" of a list."""
-    return Spots((where,), (where,))
+    return SpotList((where,), (where,))
 
 
 @construction("drive: verb=GO where=at_edge", cost=0.2)
