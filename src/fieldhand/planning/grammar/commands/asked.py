@@ -197,8 +197,8 @@ def spots_tell(
     ways = [spots]
     if several > 1 and not spots.each:  # "four spots" of two areas: in each, or in all?
         ways += [] if spots.count % several else [replace(spots, count=spots.count // several)]
-    made = [_readings(asked.areas, replace(way, each=spots.each or several > 1), site) for way in ways]
-    return [CaptureCommand(things, place, used) for place in made if place is not None] or None
+    places = [_readings(asked.areas, replace(way, each=spots.each or several > 1), site) for way in ways]
+    return [CaptureCommand(things, place, used) for place in places if place is not None] or None
 
 
 def _readings(areas: tuple[s.Selector, ...], spots: Spots, site: Site) -> PlaceMeaning | None:
