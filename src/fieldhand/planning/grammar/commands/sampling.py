@@ -258,6 +258,8 @@ def _at_points(command: CaptureCommand, laid: _Laid) -> CaptureCommand | None:
     "fronted: word=AT where=region [COMMA]",
     "fronted: OVER where=region [COMMA]",
     "fronted: INSIDE where=region [COMMA]",
+    "fronted: word=AT WHOLEOF where=region [COMMA]",
+    "fronted: OVER WHOLEOF where=region [COMMA]",
     cost=0.1,
 )
 def fronted(where: s.Selector, word: Lex | None = None) -> s.Selector | None:
