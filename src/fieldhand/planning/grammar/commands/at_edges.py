@@ -34,7 +34,7 @@ def edge_item(where: s.Selector) -> SpotList:
     return SpotList((where,), (where,))
 
 
-@construction("drive: verb=GO where=at_edge", cost=0.2)
+@construction("drive: verb=GO where=at_edge", cost=1.2)
 def drive_to_edge(verb: Lex, where: s.Selector, used: int) -> DriveCommand | None:
     """Compose "go to the pond"; "begin at the pond" names what is near."""
     return None if "begins" in verb.features else DriveCommand(PlaceMeaning(where, "one"), used)
