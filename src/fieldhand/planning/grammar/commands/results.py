@@ -76,7 +76,7 @@ def results(one: Subject, used: int) -> ResultsWish:
 )  # fmt: skip
 def where_it_is_most(used: int, noun: Lex | None = None) -> ResultsWish:
     """Compose "tell me where it is highest"."""
-    quantities = () if noun is None else noun.value.quantities
+    quantities: list[str] = [] if noun is None else list(noun.value.quantities)
     return ResultsWish(quantities[0] if len(quantities) == 1 else "", used)
 
 
