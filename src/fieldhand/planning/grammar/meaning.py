@@ -289,6 +289,7 @@ class DriveCommand:
         ends: True if nothing is done behind it ("ending at the charger").
         instead: True if what another case has is done there ("go five trees south instead").
         pace: Speed of the drive, if the phrase says it ("drive slowly to tree 4").
+        to: True for a drive to an area, and not around it or through it.
     """
 
     place: PlaceMeaning
@@ -300,6 +301,7 @@ class DriveCommand:
     ends: bool = False
     instead: bool = False
     pace: PaceClause | None = None
+    to: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -314,6 +316,8 @@ class WorkCommand:
         sides, every, heading, laps, optional, parameters: As of the plan node.
         rest_s: Seconds of rest between laps.
         rests_last: True if it rests after the last lap as well.
+        back: True if it is done on the way back from the work before it, in the other direction.
+        edge_side: Side of an edge on which the phrase says that it drives.
     """
 
     action: str
@@ -328,6 +332,8 @@ class WorkCommand:
     parameters: tuple[tuple[str, str | float], ...] = ()
     rest_s: float = 0.0
     rests_last: bool = False
+    back: bool = False
+    edge_side: Literal["", "inside", "outside"] = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -606,6 +612,13 @@ class Total:
 
 
 @dataclass(frozen=True, slots=True)
+class Reported:
+    """A wish to be told what the report of the mission says anyway ("and tell me the average")."""
+
+    used: int
+
+
+@dataclass(frozen=True, slots=True)
 class Again:
     """A command to do what was done at the last place again, at another place or there.
 
@@ -832,6 +845,7 @@ Command = (
     | UntilCondition
     | VisitLimit
     | Total
+    | Reported
     | RankCommand
     | Again
     | InAnOrder

@@ -233,6 +233,7 @@ def side_of_place(place: PlaceMeaning, noun: Lex | None = None, word: Lex | None
     "test: first=side [IS] word=CMP second=side ONAVERAGE",
     "test: first=side [IS] by=amount word=CMP second=side ONAVERAGE",
     "test: IS first=side word=CMP second=side",
+    "test: first=side AVERAGES word=CMP second=side",
     cost=0.2,
 )
 def is_more_than_other(
@@ -264,3 +265,28 @@ def is_more_than_other(
         of=first.of or "mean",
         than=second,
     )
+
+
+@construction(
+    "test: first=side IS word=BARECMP [ONAVERAGE]",
+    "test: first=side IS ONAVERAGE word=BARECMP",
+    "test: first=side AVERAGES word=BARECMP",
+    "test: first=side IS DET word=BARECMP of=STATISTIC",
+    "test: first=side IS DET word=BARECMP of=STATISTIC OFTHEALL",
+    "test: first=side IS DET word=BARECMP noun=NOUN",
+    cost=0.3,
+)
+def is_more_than_the_rest(
+    first: Subject, word: Lex, of: Lex | None = None, noun: Lex | None = None
+) -> list[Test] | None:
+    """Compose "the wet corner averages higher", than the other area that was read."""
+    if first.place is None or first.place.shape == "one" or word.value not in ("lt", "gt"):
+        return None
+    named = cast(Statistic, of.value) if of is not None else "mean"
+    quantities = [first.quantity]
+    if noun is not None:
+        quantities = [one for one in noun.value.quantities if first.quantity in ("", one)]
+    return [
+        Test(one, word.value, 0.0, place=first.place, of=first.of or named, than=Subject(of=first.of or named))
+        for one in dict.fromkeys(quantities)
+    ]

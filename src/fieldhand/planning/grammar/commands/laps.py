@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from shapely import unary_union
+from shapely.geometry.base import BaseGeometry
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
@@ -23,6 +24,8 @@ construction = GRAMMAR.construction
 
 #: Greatest part of the ground inside of a fence that the fence takes up, and least part of the site that is inside.
 _THIN, _NEARLY = 0.1, 0.8
+#: Half of the greatest width of a fence or wall in metres.
+_HALF_A_FENCE_M = 0.4
 #: Maximum number of laps, and of captures with a rest between them.
 _MOST_LAPS, _MOST_RESTED = 100, 50
 
@@ -63,21 +66,49 @@ def along_fence(fence: s.Selector, site: Site) -> Tract | None:
     return Tract(fence, "perimeter") if is_keep_out(fence, site) else None
 
 
+@construction("edge: fence=region", cost=0.2, given=("site",))
+def fence_itself(fence: s.Selector, site: Site) -> Tract | None:
+    """Compose "the deer fence" of "film the deer fence", along which the robot drives, and "the pond"."""
+    return Tract(fence, "perimeter", solid=not is_thin(fence, site)) if is_keep_out(fence, site) else None
+
+
+@construction("work: one=work [COMMA] AROUND", cost=0.2)
+def all_the_way_round(one: WorkCommand, used: int) -> WorkCommand | None:
+    """Compose "film the deer fence all the way round"."""
+    return replace(one, used=used) if one.along is None or one.mode == "perimeter" else None
+
+
+@construction("work: one=work [COMMA] EDGEIN", "work: one=work [COMMA] out=EDGEOUT", cost=0.2)
+def on_one_side_of_edge(one: WorkCommand, used: int, out: Lex | None = None) -> WorkCommand | None:
+    """Compose "film the deer fence from the inside"."""
+    known = not one.edge_side and (one.along is None or one.mode == "perimeter")
+    return replace(one, edge_side="inside" if out is None else "outside", used=used) if known else None
+
+
 @construction(
     "edge: [AROUND] INSIDE fence=region", "edge: [AROUND] ALONG INSIDE fence=region", cost=0.2, given=("site",)
 )
 def inside_fence(fence: s.Selector, site: Site) -> Tract | None:
     """Compose "just inside the deer fence", which stands around the site; a pond has no such side."""
-    return Tract(fence, "perimeter") if is_keep_out(fence, site) and _goes_around(fence, site) else None
+    return Tract(fence, "perimeter") if is_keep_out(fence, site) and goes_around(fence, site) else None
 
 
-def _goes_around(fence: s.Selector, site: Site) -> bool:
+def goes_around(fence: s.Selector, site: Site) -> bool:
     """Return True for what is thin and stands around nearly the whole site."""
-    zone = as_zone(fence)
-    own = unary_union([one.polygon for one in site.zones if zone is not None and one.name == zone.zone])
+    own = _ground_of(fence, site)
     whole = unary_union([one.polygon for one in site.zones if one.kind == "boundary"])
     around = own.convex_hull.area
     return own.area < _THIN * around and around >= _NEARLY * whole.area > 0.0
+
+
+def is_thin(fence: s.Selector, site: Site) -> bool:
+    """Return True for a fence or a wall, which has ground on both of its sides."""
+    return bool(_ground_of(fence, site).buffer(-_HALF_A_FENCE_M).is_empty)
+
+
+def _ground_of(fence: s.Selector, site: Site) -> BaseGeometry:
+    zone = as_zone(fence)
+    return unary_union([one.polygon for one in site.zones if zone is not None and one.name == zone.zone])
 
 
 @construction("work: [TAKE] times=laps where=lapped", "work: GO [FOR] times=laps where=lapped", cost=0.2)

@@ -35,7 +35,7 @@ def keep_out(place: PlaceMeaning, used: int) -> WayRule | None:
     return None if places is None else WayRule(tuple((one, 0.0) for one in places), left_out=places, used=used)
 
 
-@construction("way_rule: WITHOUT PASSES place=place", "way_rule: word=NOT THROUGH place=place", cost=0.2)
+@construction("way_rule: WITHOUT PASSES place=place [ITSELF]", "way_rule: word=NOT THROUGH place=place", cost=0.2)
 def not_through(place: PlaceMeaning, used: int, word: Lex | None = None) -> WayRule | None:
     """Compose "do not drive through row 10" and "not through row 10"."""
     del word
@@ -54,11 +54,18 @@ def around(place: PlaceMeaning, used: int) -> WayRule | None:
     "way_rule: KEEPOFF [check=CMP] far=amount RADIUS FROM place=place",
     "way_rule: KEEPOFF [DET] RADIUS OF [check=CMP] far=amount FROM place=place",
     "way_rule: KEEPOFF [check=CMP] far=amount CLEAROF place=place",
+    "way_rule: KEEPOFF [FAR] FROM place=place [COMMA] check=CMP far=amount",
+    "way_rule: KEEPOUT place=place [COMMA] check=CMP far=amount",
     "way_rule: [KEEPOFF] NOCLOSER far=amount FROM place=place",
     "way_rule: [KEEPOFF] NOCLOSER far=amount AT place=place",
     "way_rule: COMES NOCLOSER far=amount FROM place=place",
     "way_rule: COMES NOCLOSER far=amount AT place=place",
     "way_rule: WITHOUT COMES INSIDE far=amount OF place=place",
+    "way_rule: NONEWITHIN far=amount OF place=place",
+    "way_rule: NONEWITHIN far=amount FROM place=place",
+    "way_rule: NONEWITHIN far=amount AT place=place",
+    "way_rule: ATLEAST far=amount FROM place=place",
+    "way_rule: ATLEAST far=amount CLEAROF place=place",
     "way_rule: WITHOUT COMES closer=CLOSER far=amount AT place=place",
     "way_rule: WITHOUT COMES closer=CLOSER far=amount FROM place=place",
     cost=0.2,
@@ -130,6 +137,12 @@ def also_from(rule: WayRule, place: PlaceMeaning, used: int) -> WayRule | None:
 @construction("way_rule: WHILE rule=way_rule", "way_rule: BUT rule=way_rule", "way_rule: BUT rule=around", cost=0.2)
 def on_the_way(rule: WayRule, used: int) -> WayRule:
     """Compose "while avoiding the pond" and "but drive around the south block"."""
+    return replace(rule, used=used)
+
+
+@construction("way_rule: rule=way_rule [COMMA] WHOLETIME", "way_rule: WHOLETIME [COMMA] rule=way_rule", cost=0.1)
+def all_the_time(rule: WayRule, used: int) -> WayRule:
+    """Compose "keep 5 m from the pond the whole time", as every rule does."""
     return replace(rule, used=used)
 
 

@@ -36,6 +36,7 @@ class Tract:
         every: 2 for every second aisle.
         along: True if the phrase says "along".
         optional: True for as much of it as the budget allows.
+        solid: True for what the robot drives around, and whose ground is not worked ("film the pond").
     """
 
     selector: s.Selector
@@ -44,6 +45,7 @@ class Tract:
     every: int = 1
     along: bool = False
     optional: bool = False
+    solid: bool = False
 
 
 @construction(
@@ -268,6 +270,8 @@ def along_tract(command: WorkCommand, where: Tract, robot: RobotProfile) -> list
     """Return work along a tract, in each way that it may be meant."""
     implement = robot.action[command.action].implement
     covers = implement is not None and implement.covers
+    if covers and where.solid:
+        return []
     mode = where.mode or ("area" if covers else "rows")
     command = replace(command, along=where.selector, mode=mode, sides=where.sides, every=where.every)
     command = replace(command, optional=where.optional)
@@ -303,9 +307,9 @@ def in_laps(one: WorkCommand, n: Lex, used: int) -> WorkCommand | None:
     return replace(one, laps=int(n.value), used=used)
 
 
-@construction("work: one=work [COMMA] THATONLY", cost=0.2)
+@construction("work: one=work [COMMA] THATONLY", "work: one=work [COMMA] ENTIRE", cost=0.2)
 def nothing_else(one: WorkCommand, used: int) -> WorkCommand | None:
-    """Compose "mow the meadow, nothing else", before what follows."""
+    """Compose "mow the meadow, nothing else", before what follows, and "film row 4 from end to end"."""
     return None if one.along is None else replace(one, used=used)
 
 
@@ -316,8 +320,9 @@ def as_much(one: WorkCommand, used: int) -> WorkCommand | None:
 
 
 @construction(
-    "work: one=work [COMMA] [AT] [DET] side=DIR SIDE", "work: one=work [COMMA] FROM [DET] side=DIR SIDE", cost=0.1
-)
+    "work: one=work [COMMA] [AT] [DET] side=DIR SIDE", "work: one=work [COMMA] FROM [DET] side=DIR SIDE",
+    "work: one=work [COMMA] AT ITS side=DIR SIDE", "work: one=work [COMMA] FROM ITS side=DIR SIDE", cost=0.1,
+)  # fmt: skip
 def on_one_side(one: WorkCommand, side: Lex, used: int) -> WorkCommand | None:
     """Compose "spray rows 3 to 8 at 300 l/ha on the west side" and "film row 3 from the west side"."""
     fits = one.mode == "rows" and one.sides == "one" and one.along is not None and side.value in SIDES

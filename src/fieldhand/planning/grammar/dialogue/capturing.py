@@ -32,6 +32,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     as_for_each,
     block_at,
     captures_at_last_place,
+    drawn_again,
     for_each_at,
     is_conditional,
     is_inside,
@@ -67,6 +68,7 @@ from fieldhand.planning.grammar.meaning import (
     Thing,
 )
 from fieldhand.planning.grammar.places.compass import AWAY_FROM
+from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.selections import (
     AREAS,
     anchors,
@@ -109,7 +111,7 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
         raise NotComposed(message("at every tree, or at how many?", context="fault"))
     state, command = _with_unsaid_again(setting, state, command)
     state, things = named_things(setting, state, command)
-    things = meant_things(state, things)
+    things = meant_things(setting, state, things)
     place, state, before = _place_of(setting, state, command)
     before = (*begun, *before)
     tokens = 0 if command.place is None else command.place.tokens & command.used
@@ -128,6 +130,8 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
         mark = landmark_of(state.where.selector, place.selector)  # "the tree next to the pond and one farthest from it"
         place = place if mark is None else replace(place, selector=swapped(place.selector, s.Here(), mark))
     place = _those_again(state, place)
+    if place is not None and place.shape == "those" and place.each and place.count:
+        place = _as_many_as_named(setting, state, place)
     if place is not None and place.shape == "those" and (place.count or place.at_most):
         return _at_some_of_those(state, replace(command, things=things), place, whole)
     if place is not None and state.where is None and not state.plan.steps:
@@ -192,7 +196,7 @@ def _those_again(state: DialogueState, place: PlaceMeaning | None) -> PlaceMeani
         return place
     if last.selector.relative or last.per is not None or last.optional or last.at_most is not None:
         return place
-    return replace(last, each=place.each)
+    return replace(last, selector=drawn_again(last.selector), each=place.each)
 
 
 def capture_once(
@@ -266,7 +270,7 @@ def _with_unsaid_again(
     return with_assumption(state, same), replace(command, things=things)
 
 
-def meant_things(state: DialogueState, things: tuple[Thing, ...]) -> tuple[Thing, ...]:
+def meant_things(setting: Setting, state: DialogueState, things: tuple[Thing, ...]) -> tuple[Thing, ...]:
     """Return captures, those that refer to the last ones resolved.
 
     Raises:
@@ -287,7 +291,9 @@ def meant_things(state: DialogueState, things: tuple[Thing, ...]) -> tuple[Thing
         raise NotComposed(message("it is not clear whether the same condition decides that", context="fault"))
     last = state.things[0]
     given = dict(last.parameters)
-    if not given.keys() >= dict(things[0].parameters).keys():
+    action = setting.robot.action.get(last.action)
+    known = given.keys() | {parameter.name for parameter in (() if action is None else action.parameters)}
+    if not known >= dict(things[0].parameters).keys():
         raise NotComposed(message("it is not clear what another one is meant", context="fault"))
     parameters = tuple((given | dict(things[0].parameters)).items())
     return (replace(things[0], action=last.action, parameters=parameters),)
@@ -421,6 +427,19 @@ def _lines_at_each(
     state = with_step(replace(state, scope=inside), spots)
     state = _with_captures(state, command.things, command.times, said, (*inside, 0, "body"))
     return replace(done_at(state, place), things=command.things, scope=inside[:-2], loop=inside)
+
+
+def _as_many_as_named(setting: Setting, state: DialogueState, place: PlaceMeaning) -> PlaceMeaning:
+    """Return "both plants" as those that were named before.
+
+    Raises:
+        NotComposed: Not so many were named.
+    """
+    before = state.where
+    named = None if before is None else before.count or len(ids_of(before.selector, setting.site) or ())
+    if named not in (None, 0, place.count):
+        raise NotComposed(message("it is not clear which of them", context="fault"))
+    return replace(place, count=None)
 
 
 def _at_some_of_those(state: DialogueState, command: CaptureCommand, place: PlaceMeaning, said: Spans) -> DialogueState:

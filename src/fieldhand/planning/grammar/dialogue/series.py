@@ -45,6 +45,7 @@ from fieldhand.planning.grammar.meaning import (
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.selections import (
     are_rows,
+    as_zone,
     blocks_of,
     is_in_block,
     is_one_row,
@@ -106,6 +107,20 @@ def when_series(
     tested_at = (state.where, state.where_scope)
     made = replace(state, scope=(*path, "then"), choice=path, decided=command.tests, open=True, tested_at=tested_at)
     return made if here and state.loop is not None and is_inside(scope, state.loop) else replace(made, loop=None)
+
+
+def at_compared(clauses: Sequence[LinkedCommand]) -> tuple[LinkedCommand, ...]:
+    """Return clauses with "there" as the area that the condition before it compares with another."""
+    found: list[LinkedCommand] = []
+    for clause in clauses:
+        before, command = found[-1].command if found else None, clause.command
+        tests = before.tests.tests if isinstance(before, When) else ()
+        area = tests[0].place if len(tests) == 1 and tests[0].than is not None else None
+        there = isinstance(command, CaptureCommand) and command.place is not None and command.place.shape == "here"
+        if area is not None and there and isinstance(command, CaptureCommand):
+            clause = replace(clause, command=replace(command, place=area, relation="in"))
+        found.append(clause)
+    return tuple(found)
 
 
 def _at_each_place(state: DialogueState) -> tuple[DialogueState, Path] | None:
@@ -194,6 +209,8 @@ def _known(setting: Setting, test: Test, name: str, quantity: str, unit: str) ->
 def _comparison(setting: Setting, state: DialogueState, test: Test) -> tuple[c.Condition, DialogueState]:
     """Return the comparison of the readings at one place, or in one area, with those at another."""
     other = test.than
+    if other is not None and other.place is None and test.place is not None:
+        other = replace(other, place=_rest_of(setting, state, test, test.place))
     if other is None or other.place is None or test.place is None:
         raise NotComposed(message("it is not clear which readings are tested", context="fault"))
     state = _parted(setting, state, test.place, other.place)
@@ -215,6 +232,16 @@ def _comparison(setting: Setting, state: DialogueState, test: Test) -> tuple[c.C
     return made, state
 
 
+def _rest_of(setting: Setting, state: DialogueState, test: Test, place: PlaceMeaning) -> PlaceMeaning | None:
+    """Return the only other place of such readings ("if the wet corner is higher"); None unless there is one."""
+    found: list[s.Selector] = []
+    for path, node in walk(state.plan):
+        if node.act is not None and fits(node, replace(test, unit=""), setting.robot):
+            found += [one for one in _place_of(state.plan, path).members if not _is_at(setting, one, place)]
+    others = list(dict.fromkeys(found))
+    return PlaceMeaning(others[0], "several") if len(others) == 1 else None
+
+
 def _parted(setting: Setting, state: DialogueState, one: PlaceMeaning, other: PlaceMeaning) -> DialogueState:
     """Return the state with one for-each a place in the stead of a for-each that visits both places."""
     for number, step in enumerate(state.plan.steps):
@@ -226,7 +253,8 @@ def _parted(setting: Setting, state: DialogueState, one: PlaceMeaning, other: Pl
         if len(parts) < 2 or not all(sides) or len(sides[0]) + len(sides[1]) != len(parts):
             continue
         loops = tuple(
-            replace(loop, select=side[0] if len(side) == 1 else s.UnionOf(parts=tuple(side))) for side in sides
+            replace(loop, select=side[0] if len(side) == 1 else s.UnionOf(parts=tuple(side)))
+            for side in sorted(sides, key=lambda side: parts.index(side[0]))
         )
         steps = (*state.plan.steps[:number], *loops, *state.plan.steps[number + 1 :])
         return replace(state, plan=replace(state.plan, steps=steps), captured=None, loop=None)
@@ -237,6 +265,10 @@ def _is_at(setting: Setting, selector: s.Selector, place: PlaceMeaning) -> bool:
     """Return True if the places of a selector are those of a phrase, or some of its area."""
     if selector == place.selector or place.selector in tuple(selector.walk()):
         return True
+    zone = as_zone(place.selector)
+    named = zone is not None and zone == s.InZone(zone=zone.zone) and getattr(selector, "zone", "") == zone.zone
+    if named and getattr(selector, "part", "") == "all":
+        return True  # free points of the zone
     if are_rows(place.selector) and not is_in_block(place.selector):
         rows = {over(place.selector, block) for block in blocks_of(selector)}
         return bool(rows & set(selector.walk()))

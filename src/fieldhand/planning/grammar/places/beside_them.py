@@ -17,8 +17,14 @@ _MOST = 40
 
 
 @construction(
-    "beside_them: [DET] noun=TREE EACHSIDE THERE",
-    "beside_them: [DET] noun=TREE EACHSIDE OF IT",
+    "beside_them: [DET] noun=TREE [DIRECTLY] EACHSIDE THERE",
+    "beside_them: [DET] noun=TREE [DIRECTLY] EACHSIDE OF IT",
+    "beside_them: [DET] noun=TREE [DIRECTLY] NEXTTO IT",
+    "beside_them: [DET] noun=TREE [DIRECTLY] BESIDE IT",
+    "beside_them: ITS [n=count] noun=NEIGHBOUR",
+    "beside_them: [DET] [n=count] noun=NEIGHBOUR OF EACH [ONE]",
+    "beside_them: EACH ITS noun=NEIGHBOUR",
+    "beside_them: THEIR n=count noun=NEIGHBOUR",
     "beside_them: [DET] noun=TREE EACHSIDE OF EACH [ONE]",
     "beside_them: [DET] noun=TREE EACHSIDE OF DET",
     "beside_them: [DET] noun=NEIGHBOUR EACHSIDE",
@@ -28,14 +34,17 @@ _MOST = 40
     "beside_them: THEIR noun=NEIGHBOUR",
     cost=0.1,
 )
-def beside_them(noun: Lex) -> str | None:
+def beside_them(noun: Lex, n: int = 2) -> str | None:
     """Compose "the plants on either side of them"."""
+    if n != 2:
+        return None
     return "beside" if noun.plural or "plural" in noun.features or noun.text == "one" else None
 
 
 @construction(
     "place: whole=place [COMMA] AND beside_them", "place: whole=place AND OF beside_them",
     "place: whole=place AND AT beside_them", "place: whole=place TOGETHERWITH beside_them",
+    "place: whole=place AND ALSO OF beside_them", "place: whole=place AND ALSO beside_them",
     cost=0.1, given=("site",),
 )  # fmt: skip
 def with_those_beside(whole: PlaceMeaning, site: Site) -> PlaceMeaning | None:

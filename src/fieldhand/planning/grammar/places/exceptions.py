@@ -103,10 +103,14 @@ def kind_out(value: Lex, area: s.Selector | None = None) -> list[Omission]:
 
 
 @construction(
-    "out: [DET] flag=FLAG ONE", "out: ANY flag=FLAG ONE", "out: [DET] flag=FLAG ONE in_ area=region", cost=0.0
-)
-def such_out(flag: Lex, area: s.Selector | None = None) -> list[Omission]:
-    """Compose "the covered ones"."""
+    "out: [DET] flag=FLAG ONE", "out: ANY flag=FLAG ONE", "out: [DET] flag=FLAG ONE in_ area=region",
+    "out: ANY which_is flag=FLAG", "out: word=DET which_is flag=FLAG", "out: word=DET [ONE] which_is flag=FLAG",
+    cost=0.0,
+)  # fmt: skip
+def such_out(flag: Lex, area: s.Selector | None = None, word: Lex | None = None) -> list[Omission] | None:
+    """Compose "the covered ones" and "those that are covered"."""
+    if word is not None and word.features.isdisjoint({"those", "definite"}):
+        return None
     return [Omission(value=(name, value), area=area) for name, value in flag.value]
 
 
@@ -153,7 +157,24 @@ def chosen_out(chosen: Chosen) -> Omission:
     return Omission(chosen=chosen)
 
 
-@construction("but_out: except out=out", cost=0.0)
+@construction(
+    "outs: first=out COMMA second=out", "outs: first=outs COMMA second=out",
+    "out: first=out [COMMA] OR second=out", "out: first=outs [COMMA] OR second=out",
+    "out: first=out [COMMA] NOR second=out", "out: first=outs [COMMA] NOR second=out",
+    cost=0.0,
+)  # fmt: skip
+def neither_of_both(first: Omission, second: Omission) -> Omission | None:
+    """Compose "the wet corner or the slope" behind "but not": both are left out."""
+    one, other = first.place, second.place
+    if one is None or other is None or not {one.shape, other.shape} <= {"one", "several", "area"}:
+        return None
+    if any(place.per is not None or place.optional or place.like is not None for place in (one, other)):
+        return None
+    parts = s.UnionOf(parts=(*one.selector.members, *other.selector.members))
+    return Omission(place=PlaceMeaning(parts, "area" if one.shape == other.shape == "area" else "several"))
+
+
+@construction("but_out: except out=out", "but_out: [COMMA] NEITHER out=out", cost=0.0)
 def out_with_except(out: Omission) -> Omission:
     """Compose "except the yellow trees"."""
     return out
