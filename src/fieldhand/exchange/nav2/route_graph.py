@@ -48,7 +48,7 @@ _SAME_M = 1e-3
 _SEEN = 100
 
 #: An edge is left out if two others replace it that are at most this fraction longer.
-_LONGER = 5e-4
+_LONGER = 5e-3
 
 
 @dataclass(frozen=True, kw_only=True)
