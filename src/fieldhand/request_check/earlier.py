@@ -61,8 +61,8 @@ def periods_of(task: Task) -> frozenset[Period]:
 def _days_of(task: Task) -> frozenset[Period]:
     """Return the days with which attributes of plants are compared ("sown before April")."""
     selectors = (node.selector for node in p.walk(task.composition.plan) if node.selector is not None)
-    parts = (part for one in selectors for part in one.walk() if isinstance(part, s.Where) and is_date(part.value))
-    return frozenset(Period(first_day=str(part.value), last_day=str(part.value)) for part in parts)
+    values = (str(getattr(part, "value", "")) for one in selectors for part in one.walk())
+    return frozenset(Period(first_day=value, last_day=value) for value in values if is_date(value))
 
 
 def selects_by_work(task: Task) -> bool:

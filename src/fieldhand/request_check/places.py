@@ -46,6 +46,7 @@ _PLANTED_FIRST = re.compile(
 _BESIDE_THEM = re.compile(
     r"\b(?:either|each|both) sides? of (?:it|them|these|those|each)\b|\b(?:their|its) (?:\w+ )?neighbou?rs\b"
     r"|\bplants? (?:\w+ )?(?:next to|beside) (?:it|them|each)\b|\bneighbou?rs? of each\b"
+    r"|\b(?:trees?|vines?|ones?) (?:next to|beside|alongside) (?:it|them|each)\b"
 )
 #: Pattern of a half that is named by a place near it, or by words that no map explains.
 _SOME_HALF = re.compile(
@@ -134,6 +135,8 @@ def _rows(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
     for amount in facts.amounts:
         if counted_there or not _is_row(facts, amount) or _of_named_tree(facts, plan, amount):
             continue
+        if any(True for _ in plan.having(s.Across)):
+            continue  # "the plant opposite in row 2"
         if not any(_holds(row, amount) for _, row in rows) and not _has_named_tree(amount, plan, site):
             what_differs = message(
                 "the request names row {row}, but the plan does not", row=Number(f"{amount.values[0]:g}")

@@ -62,11 +62,11 @@ PLANNED = [
 ]
 
 REFUSED = [
-    (DEMO, HUSKY, "Go to trees 4, 5 and 9 and take a picture at both trees.", "which of them"),
+    (DEMO, HUSKY, "Go to trees 4, 5 and 9 and take a picture at both trees.", "no such ones"),
     (DEMO, HUSKY, "Measure CO2 at both trees.", "which place is meant"),
     (DEMO, HUSKY, "Photograph both trees.", "which place is meant"),
-    (DEMO, HUSKY, "Which tree is the oldest?", "is a question"),
-    (DEMO, HUSKY, "Which trees are the oldest? Photograph them.", "is a question"),
+    (DEMO, HUSKY, "Which tree is the oldest?", "asks for nothing"),
+    (DEMO, HUSKY, "Which trees are the oldest? Photograph them.", "which place is meant"),
     (DEMO, HUSKY, "According to the map, photograph tree 4.", "each word is known"),
 ]
 

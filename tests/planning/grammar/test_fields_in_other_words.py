@@ -542,7 +542,7 @@ REFUSED = [
         GARDEN,
         TRACTOR,
         "spray half of bed 4 at 200 l/ha",
-        "'spray half of bed 4': this is done while driving along a path, not at single trees",
+        "work along a row is done along the whole row",
     ),
     (
         GARDEN,

@@ -393,3 +393,38 @@ def too_long(time: Amount) -> Impossible | None:
     if time.unit != "seconds" or 0.0 < time.number <= LONGEST_WAIT_S:
         return None
     return Impossible(message("a wait lasts at most 24 hours"), message("say a shorter time, or plan two missions"))
+
+
+@construction(
+    "[DET] STRIP amount=amount DIMENSION", "[DET] amount=amount [DASH] [DIMENSION] STRIP",
+    "[DET] amount=amount [DASH] DIMENSION STRIP",
+    given=("robot",),
+)  # fmt: skip
+def strip_of_a_width(amount: Amount, robot: RobotProfile) -> Impossible | None:
+    """Compose "a strip three metres wide", which is as wide as the implement."""
+    widths = [one.implement.width_m for one in robot.actions if one.implement is not None and one.implement.covers]
+    if amount.unit != "metres" or not widths:
+        return None
+    what = message("a strip along an edge is as wide as the implement, {width} m", width=Number(f"{max(widths):g}"))
+    return Impossible(what, message("leave out the width and say how many laps: 'mow one lap around the paddock'"))
+
+
+@construction("way=CLOCKWISE")
+def direction_around(way: Lex) -> Impossible:
+    """Compose "clockwise" behind a drive around an area; the corners can be visited so."""
+    del way
+    return Impossible(
+        message("in which direction it drives around an area cannot be said yet"),
+        message("leave it out: the direction is the shorter one, or that of the implement"),
+    )
+
+
+@construction("amount=amount FROM [DET] EDGE", "amount=amount CLEAROF [DET] EDGE")
+def distance_from_edge(amount: Amount) -> Impossible | None:
+    """Compose "4 metres from the edge" behind a drive around an area."""
+    if amount.unit != "metres":
+        return None
+    return Impossible(
+        message("how far from an edge it drives along it cannot be said yet"),
+        message("leave it out: it drives as near as it can"),
+    )

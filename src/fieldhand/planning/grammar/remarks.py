@@ -159,7 +159,7 @@ def without_remarks(
             if tells and not aside:
                 aside = _because(clause, known) or _before_people(clause, known)
                 aside = aside or (clause if _is_apposition(clause, said, words, kinds) else ())
-                aside = aside or (clause if clause[0] == said[0] and _is_for_study(clause, kinds) else ())
+                aside = aside or (clause if said and clause[0] == said[0] and _is_for_study(clause, kinds) else ())
             if tells and not aside and telling(clause, known, sentence=False) is not None:
                 aside = clause
             if aside and len(aside) < len(said):

@@ -149,6 +149,12 @@ def so_many_spots(n: int, n2: int | None = None, random: Lex | None = None) -> S
     return Spots(n, random=random is not None) if n2 in (None, n) and n > 1 else None
 
 
+@construction("spots: [TAKE] [AT] n=count RANDOM POINT", "spots: [AT] n=count POINT RANDOM", cost=0.1)
+def so_many_random_spots(n: int) -> Spots | None:
+    """Compose "eight random points"."""
+    return Spots(n, random=True) if n > 1 else None
+
+
 @construction("spots: [TAKE] things=things", cost=0.3)
 def so_many_readings(things: tuple[Thing, ...]) -> Spots | None:
     """Compose "twelve readings"."""

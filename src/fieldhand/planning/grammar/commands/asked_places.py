@@ -7,7 +7,7 @@ from dataclasses import replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import CaptureCommand, DriveCommand, Nominal, PlaceMeaning
-from fieldhand.planning.selections import as_top, is_by_attribute
+from fieldhand.planning.selections import as_top, is_by_value
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -61,8 +61,5 @@ def answered_by_file(place: PlaceMeaning, used: int) -> DriveCommand:
 @construction("capture: ONRECORD [COMMA] act=capture", "capture: act=capture [COMMA] ONRECORD", cost=0.3)
 def captured_on_record(act: CaptureCommand, used: int) -> CaptureCommand | None:
     """Compose "according to the map, check the soil moisture at the driest pepper", which the file knows."""
-    place = act.place
-    known = place is not None and any(
-        as_top(part) is not None or is_by_attribute(part) for part in place.selector.walk()
-    )
-    return replace(act, used=used) if known else None
+    parts = () if act.place is None else act.place.selector.walk()
+    return replace(act, used=used) if any(as_top(part) is not None or is_by_value(part) for part in parts) else None

@@ -23,9 +23,7 @@ from fieldhand.planning.grammar.meaning import (
 from fieldhand.planning.grammar.places.numbers import named_trees
 from fieldhand.planning.grammar.places.points import Ground, Points, points_on
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import (
-    specifies_part,
-)
+from fieldhand.planning.selections import as_zone, specifies_part
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
@@ -412,3 +410,11 @@ def ground_measured(
     if how is not None:
         things = [made for one in things if (made := with_parameter(one, how, robot)) is not None]
     return [CaptureCommand((one,), place, used) for one in things] or None
+
+
+@construction("capture: MEASURE it=IT word=relation place=place", cost=0.5)
+def measured_elsewhere(it: Lex, word: str, place: PlaceMeaning, used: int) -> CaptureCommand | None:
+    """Compose "read it at the herb patch", of what was read last."""
+    del it
+    known = place.shape == "area" and as_zone(place.selector) is not None
+    return CaptureCommand((Thing(LAST_THING, count=1),), place, used, relation=word) if known else None

@@ -291,6 +291,9 @@ def in_reverse_order(used: int) -> InAnOrder:
 @construction(
     "order: NOORDER",
     "order: DISTINCT",
+    "order: ACTV DISTINCT",
+    "order: verb DISTINCT",
+    "order: VISIT DISTINCT",
     "order: [DET] ORDERWORD [COMMA] [IS] ORDERFREE",
     "order: [ORDERBY] WHATEVER ORDERWORD [ORDERSUITS]",
     "order: [ORDERBY] WHATEVER ORDERWORD [IS] ORDERBEST",
@@ -305,6 +308,19 @@ def in_reverse_order(used: int) -> InAnOrder:
 def in_any_order(used: int) -> InAnOrder:
     """Compose "in any order", "in whatever order suits you" and "the order of visits is free"."""
     return InAnOrder("any", "", False, used)
+
+
+@construction(
+    "order: INEACHCASE [GO] [AT] [DET] NEAREST [ONE] [NEXTONE] [LEFT]",
+    "order: [GO] [AT] [DET] NEAREST [ONE] [LEFT] NEXTONE",
+    "order: [GO] [AT] [DET] NEAREST [ONE] [LEFT] INEACHCASE",
+    "order: INEACHCASE [GO] [AT] [DET] NEAREST TREE [NEXTONE] [LEFT]",
+    "order: [GO] [AT] [DET] NEAREST TREE [LEFT] NEXTONE",
+    cost=0.1,
+)  # fmt: skip
+def always_the_nearest(used: int) -> InAnOrder:
+    """Compose "always going to the nearest one next"."""
+    return InAnOrder("any", "nearest", False, used)
 
 
 @construction("lead: place=place", cost=1.6)

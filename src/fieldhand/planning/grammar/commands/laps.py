@@ -12,9 +12,9 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Adjunct
 from fieldhand.planning.grammar.commands.waits import LONGEST_WAIT_S
 from fieldhand.planning.grammar.commands.working import Tract
-from fieldhand.planning.grammar.meaning import Amount, CaptureCommand, Thing, WorkCommand, wait_thing
+from fieldhand.planning.grammar.meaning import THAT_GROUND, Amount, CaptureCommand, Thing, WorkCommand, wait_thing
 from fieldhand.planning.grammar.places.areas import edges
-from fieldhand.planning.grammar.places.sampling import bare_zone, is_keep_out
+from fieldhand.planning.grammar.places.sampling import SamplingPath, bare_zone, is_keep_out
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import are_rows, as_zone
 from fieldhand.site.model import Site
@@ -86,7 +86,7 @@ def on_one_side_of_edge(one: WorkCommand, used: int, out: Lex | None = None) -> 
 
 
 @construction(
-    "edge: [AROUND] INSIDE fence=region", "edge: [AROUND] ALONG INSIDE fence=region", cost=0.2, given=("site",)
+    "edge: [AROUND] INSIDE fence=region", "edge: [AROUND] ALONG [DET] INSIDE fence=region", cost=0.2, given=("site",)
 )
 def inside_fence(fence: s.Selector, site: Site) -> Tract | None:
     """Compose "just inside the deer fence", which stands around the site; a pond has no such side."""
@@ -133,6 +133,38 @@ def once_around(
     if where is not None and are_rows(where):
         return None
     return _driven(line or where or s.Trees(), times, used)
+
+
+@construction(
+    "work: verb=WORKV times=laps where=lapped", "work: verb=WORKV times=often [COMMA] where=edge",
+    "work: verb=WORKV [DET] STRIP where=lapped", cost=0.1,
+)  # fmt: skip
+def worked_in_laps(verb: Lex, used: int, times: int = 1, where: s.Selector | Tract | None = None) -> WorkCommand | None:
+    """Compose "mow two laps around the paddock", "mow once along the fence" and "mow a strip around the pond"."""
+    along = where.selector if isinstance(where, Tract) else where
+    made = None if along is None else _driven(along, times, used)
+    return None if made is None else replace(made, action=verb.value)
+
+
+@construction("circled: CIRCLEV where=region", "circled: CIRCLEV IT", "circled: GO AROUND IT", cost=0.1)
+def circled(where: s.Selector | None = None) -> s.Selector | None:
+    """Compose "circle the pond" and "drive round it"."""
+    known = where is None or not (are_rows(where) or where == edges())
+    return (where or s.InZone(zone=THAT_GROUND)) if known else None
+
+
+@construction("work: where=circled", "work: GO times=often AROUND it=IT", cost=0.1)
+def circles(used: int, where: s.Selector | None = None, times: int = 1, it: Lex | None = None) -> WorkCommand | None:
+    """Compose "circle the pond" by itself, and "drive twice round it"."""
+    del it
+    return _driven(where or s.InZone(zone=THAT_GROUND), times, used)
+
+
+@construction("path_over: where=circled [ONCE]", "path_over: GO ONCE AROUND it=IT", "path_over: AROUND it=IT", cost=0.2)
+def on_the_round(where: s.Selector | None = None, it: Lex | None = None) -> tuple[SamplingPath, s.Selector | None]:
+    """Compose "circle it once", of captures on the way."""
+    del it
+    return SamplingPath("edge", 1), where or s.InZone(zone=THAT_GROUND)
 
 
 def _driven(where: s.Selector, times: int, used: int) -> WorkCommand | None:

@@ -339,7 +339,10 @@ def at_word() -> str:
     "visit_limit: check=UPTO n=count READING",
     "visit_limit: check=UPTO n=count TIMES",
     "visit_limit: check=CMP n=count OFTHEM",
-    "visit_limit: STOP word=THEN n=count TREE",
+    "visit_limit: STOP word=THEN n=count [TREE] [TOPS]",
+    "visit_limit: STOP word=THEN n=count READING [TOPS]",
+    "visit_limit: STOP word=THEN n=count POINT [TOPS]",
+    "visit_limit: STOP word=THEN n=count OFTHEM [TOPS]",
     cost=0.5,
 )
 def visits_at_most(n: int, used: int, word: Lex | None = None, check: Lex | None = None) -> VisitLimit | None:

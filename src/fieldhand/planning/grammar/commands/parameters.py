@@ -284,7 +284,9 @@ def _each_probed_so(before: Said, number: int, how: ParameterValue, own: int, ro
     found: list[Said] = []
     clause = before.clauses[number]
     command = clause.command
-    for action in robot.actions if isinstance(command, CaptureCommand) else ():
+    if not isinstance(command, CaptureCommand):
+        return found
+    for action in robot.actions:
         made = with_parameter(replace(command.things[0], action=action.name, verb=""), how, robot)
         if made is not None:
             one = replace(clause, command=replace(command, things=(made,), used=command.used | own))

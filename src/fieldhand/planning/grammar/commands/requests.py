@@ -130,6 +130,15 @@ def then_joint(used: int, then: str, before: Lex | None = None, both: Lex | None
     return Connective(from_here and before is None and both is None, True, used, from_here=from_here)
 
 
+@construction(
+    "joint: [COMMA] and_or_but [COMMA] AFTEREACH [COMMA]", "joint: COMMA AFTEREACH [COMMA]",
+    "joint: [COMMA] and_or_but [COMMA] INEACHCASE [COMMA]", cost=0.1,
+)  # fmt: skip
+def after_each(used: int) -> Connective:
+    """Compose "and after each one", before the place opposite it."""
+    return Connective(False, False, used, both=True, each=True)
+
+
 @construction("joint: FULLSTOP [and_or_but]", cost=0.1)
 def full_stop(used: int) -> Connective:
     """Compose "."."""

@@ -314,3 +314,65 @@ def points_but_those(act: CaptureCommand, out: s.Selector, used: int, site: Site
         return None
     outside = s.InZone(zone=zone.zone, outside=True, of=place.selector)
     return replace(act, place=replace(place, selector=outside), used=used)
+
+
+@construction(
+    "laid_places: LAYS path=path WITH n=count POINT OVER where=region",
+    "laid_places: LAYS path=path OF n=count POINT OVER where=region",
+    "laid_places: LAYS path=path OVER where=region WITH n=count POINT",
+    "laid_places: LAYS path=path in_ where=region WITH n=count POINT",
+    "laid_places: LAYS path=path WITH n=count POINT in_ where=region",
+    "laid_places: LAYS path=path WITH n=count POINT THROUGH where=region",
+    "laid_places: LAYS path=path WITH n=count TREE OVER where=region",
+    "laid_places: LAYS path=path WITH n=count TREE OVER site",
+    "laid_places: LAYS path=path WITH n=count TREE THROUGH site",
+    "laid_places: LAYS path=path WITH n=count POINT OVER site",
+    "laid_places: LAYS path=path OVER site WITH n=count POINT",
+    "laid_places: on=walked WITH n=count POINT",
+    "laid_places: on=walked OF n=count POINT",
+    cost=0.1, given=("site",),
+)  # fmt: skip
+def laid_along_path(
+    n: int,
+    site: Site,
+    path: SamplingPath | None = None,
+    where: s.Selector | None = None,
+    on: tuple[SamplingPath, s.Selector | None] | None = None,
+) -> PlaceMeaning | None:
+    """Compose "lay a W with twelve points over the slope"."""
+    route, over_what = on if on is not None else (path, where)
+    made = None if route is None or n < 2 else route.over(over_what, site, count=n)
+    return None if made is None else PlaceMeaning(made, "several", count=n)
+
+
+@construction("laid_places: LAYS place=place", "laid_places: SCATTER place=place", cost=0.2)
+def laid_points(place: PlaceMeaning) -> PlaceMeaning | None:
+    """Compose "set out twelve points over the slope"."""
+    laid = all(isinstance(one, s.PointsIn | s.Transect | s.Grid) for one in place.selector.members)
+    return place if laid and place.shape == "several" else None
+
+
+@construction("at_each: AT EACH GRIDPOINT", "at_each: AT EACH [OFTHEM]", cost=0.0)
+def at_each_point() -> str:
+    """Compose "at every point"."""
+    return "each"
+
+
+@construction("at_each: place=here", cost=0.1)
+def at_each_of_them(place: PlaceMeaning) -> str | None:
+    """Compose "at each of them"."""
+    return "each" if place.shape == "those" and place.each else None
+
+
+@construction(
+    "capture: place=laid_places [COMMA] AND verb things=things at_each",
+    "capture: place=laid_places FULLSTOP [at_each] [COMMA] verb things=things",
+    "capture: place=laid_places FULLSTOP verb things=things at_each",
+    "capture: place=laid_places [COMMA] AND at_each [COMMA] verb things=things",
+    cost=0.2,
+)
+def captured_at_laid(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> CaptureCommand | None:
+    """Compose "lay a W with twelve points over the slope and read the soil moisture at each of them"."""
+    if any(one.count not in (None, 1) for one in things):
+        return None
+    return CaptureCommand(once(things), replace(place, each=True), used, relation="at")

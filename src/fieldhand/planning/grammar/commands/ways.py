@@ -218,3 +218,22 @@ def _kept(command: Command, places: s.Selector, site: Site, *, leaves_out: bool)
         return command  # "trees 4 and 9": a check tells which of them cannot be reached
     rest = left_out_of(command, Excluded(PlaceMeaning(places, "area")), site)
     return command if rest is None else rest
+
+
+@construction("through_to: VIAGATE gate=place AT to=place", "through_to: GO THROUGH gate=place AT to=place", cost=0.2)
+def through_gate_to(gate: PlaceMeaning, to: PlaceMeaning, used: int) -> tuple[LinkedCommand, ...] | None:
+    """Compose "go through the middle gate to the pond"."""
+    if gate.shape != "one" or not is_gate(gate.selector) or to.shape not in ("one", "area") or to.per is not None:
+        return None
+    there = DriveCommand(to, to.tokens)
+    through = DriveCommand(gate, used & ~to.tokens)
+    return LinkedCommand(None, through), LinkedCommand(Connective(False, True, 0), there)
+
+
+@construction("said: pair=through_to", "said: before=said joint=joint pair=through_to", cost=0.1)
+def said_through_gate(
+    pair: tuple[LinkedCommand, ...], before: Said | None = None, joint: Connective | None = None
+) -> Said:
+    """Compose "go through the middle gate to the pond" as a step, behind others too."""
+    through, there = pair
+    return Said((*(() if before is None else before.clauses), replace(through, before=joint), there))

@@ -8,7 +8,14 @@ from dataclasses import replace
 from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.allowances import allowed, failing
-from fieldhand.planning.grammar.dialogue.capturing import capture, capture_again, capture_elided, meant_things
+from fieldhand.planning.grammar.dialogue.capturing import (
+    capture,
+    capture_again,
+    capture_elided,
+    is_across_each,
+    meant_things,
+)
+from fieldhand.planning.grammar.dialogue.compared import in_both_cases, is_compared
 from fieldhand.planning.grammar.dialogue.conditions import (
     captured_where,
     in_no_case,
@@ -54,6 +61,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_joints,
     with_step,
 )
+from fieldhand.planning.grammar.dialogue.that_ground import with_that_ground
 from fieldhand.planning.grammar.dialogue.those_rows import with_those_rows
 from fieldhand.planning.grammar.dialogue.totals import reported, with_total
 from fieldhand.planning.grammar.dialogue.turns import as_meant
@@ -250,7 +258,13 @@ def _read(
     setting: Setting, state: DialogueState, clause: LinkedCommand, following: Sequence[LinkedCommand]
 ) -> DialogueState:
     """Return the state after a clause."""
-    clause = replace(clause, command=with_those_rows(state, clause.command))
+    state, command = with_that_ground(state, with_those_rows(state, clause.command))
+    clause = replace(clause, command=command)
+    if is_compared(clause.command):
+        outer, cases = state.scope, in_both_cases(setting, capture_elided(setting, state), clause)
+        for number, one in enumerate(cases):
+            state = _read(setting, state, one, cases[number + 1 :])
+        return replace(state, scope=outer, loop=None, captured=None)
     if isinstance(clause.command, WatchCommand):
         joined = () if clause.before is None else setting.spans_of(clause.before.used)
         return watched(setting, with_joints(state, joined), clause.command)
@@ -263,6 +277,8 @@ def _read(
     joint, command = clause.before, with_known_place(setting, state, command)
     if joint is not None and joint.first:
         return _do_before_last(setting, state, command, joint, following)
+    if joint is not None and joint.each and not is_across_each(state, getattr(command, "place", None)):
+        raise NotComposed(message("it is not clear what is done after each of them", context="fault"))
     if state.plan.steps and isinstance(command, CaptureCommand | DriveCommand | Lead | When | Again):
         state = driven_home(setting, state)
     elided = state.lead is not None and state.lead.relation == "of" and isinstance(command, CaptureCommand)

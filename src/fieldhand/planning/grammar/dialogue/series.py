@@ -32,6 +32,8 @@ from fieldhand.planning.grammar.dialogue.state import (
 )
 from fieldhand.planning.grammar.dialogue.tested import checked, fits
 from fieldhand.planning.grammar.meaning import (
+    DIFFERENCE,
+    NTH_READING,
     AllTests,
     CaptureCommand,
     Command,
@@ -39,8 +41,10 @@ from fieldhand.planning.grammar.meaning import (
     HowMany,
     LinkedCommand,
     PlaceMeaning,
+    Subject,
     Test,
     When,
+    wait_seconds,
 )
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.selections import (
@@ -209,6 +213,10 @@ def _known(setting: Setting, test: Test, name: str, quantity: str, unit: str) ->
 def _comparison(setting: Setting, state: DialogueState, test: Test) -> tuple[c.Condition, DialogueState]:
     """Return the comparison of the readings at one place, or in one area, with those at another."""
     other = test.than
+    if other is not None and other.quantity == DIFFERENCE:
+        return _difference(setting, state, test)
+    if other is not None and other.quantity.startswith(NTH_READING):
+        return _change(setting, state, test, other.quantity)
     if other is not None and other.place is None and test.place is not None:
         other = replace(other, place=_rest_of(setting, state, test, test.place))
     if other is None or other.place is None or test.place is None:
@@ -237,9 +245,64 @@ def _rest_of(setting: Setting, state: DialogueState, test: Test, place: PlaceMea
     found: list[s.Selector] = []
     for path, node in walk(state.plan):
         if node.act is not None and fits(node, replace(test, unit=""), setting.robot):
-            found += [one for one in _place_of(state.plan, path).members if not _is_at(setting, one, place)]
+            found += [one for one in place_of(state.plan, path).members if not _is_at(setting, one, place)]
     others = list(dict.fromkeys(found))
     return PlaceMeaning(others[0], "several") if len(others) == 1 else None
+
+
+def sides_measured(setting: Setting, state: DialogueState) -> tuple[s.Selector, ...]:
+    """Return the places at which what was measured last was measured, each once."""
+    acts = [(path, node.act) for path, node in walk(state.plan) if node.act is not None]
+    acts = [(path, act) for path, act in acts if act.action in setting.robot.action]
+    measuring = [(path, act) for path, act in acts if setting.robot.action[act.action].measures]
+    last = measuring[-1][1].action if measuring else ""
+    places = (place_of(state.plan, path) for path, act in measuring if act.action == last)
+    return tuple(dict.fromkeys(one for place in places for one in place.members))
+
+
+def _difference(setting: Setting, state: DialogueState, test: Test) -> tuple[c.Condition, DialogueState]:
+    """Return the test of how far two readings, or the means at two places, are apart, in either direction.
+
+    Raises:
+        NotComposed: Readings were not taken at just two places.
+    """
+    sides = [PlaceMeaning(one, "several") for one in sides_measured(setting, state)]
+    if len(sides) != 2 or test.check not in ("gt", "ge", "lt", "le"):
+        raise NotComposed(message("it is not clear which readings are tested", context="fault"))
+    made: list[c.Condition] = []
+    for one, other in (sides, sides[::-1]):
+        condition, state = _comparison(setting, state, replace(test, place=one, than=Subject(place=other)))
+        made.append(condition)
+    return (c.AnyOf if test.check in ("gt", "ge") else c.AllOf)(conditions=tuple(made)), state
+
+
+def _change(setting: Setting, state: DialogueState, test: Test, other: str) -> tuple[c.Condition, DialogueState]:
+    """Return the comparison of two readings that are known by their numbers: the last one and the one before it.
+
+    Raises:
+        NotComposed: There are none, or they measure different things.
+    """
+    unclear = NotComposed(message("it is not clear which readings are tested", context="fault"))
+    acts = [(path, node.act) for path, node in walk(state.plan) if node.act is not None]
+    found = [(path, act) for path, act in acts if wait_seconds(act.action) is None]
+    taken = [path for path, act in found if act.count == 1 and setting.robot.action[act.action].measures]
+    taken = [path for path in taken if not any(node_at(state.plan, path[:end]).visits_each for end in range(len(path)))]
+    named: list[tuple[str, str]] = []
+    for number in (int(test.quantity.removeprefix(NTH_READING)), int(other.removeprefix(NTH_READING))):
+        at = number - 1 if number > 0 else len(taken) + number
+        if not 0 <= at < len(taken) or len(taken) < len(found):
+            raise unclear
+        one, quantity, state = _named(setting, state, replace(test, quantity=""), [taken[at]])
+        named.append((one, quantity))
+    (name, quantity), (than, other_quantity) = named
+    unit = setting.robot.quantity[quantity].unit
+    if name == than or quantity != other_quantity or (test.unit and test.unit != unit):
+        raise unclear
+    made = CompareSeries(
+        of="mean", reading=name, than=than, quantity=quantity, test=cast(Any, test.check), value=test.value,
+        unit=unit if test.value else "",
+    )  # fmt: skip
+    return made, state
 
 
 def _parted(setting: Setting, state: DialogueState, one: PlaceMeaning, other: PlaceMeaning) -> DialogueState:
@@ -287,7 +350,7 @@ def _paths(setting: Setting, state: DialogueState, test: Test) -> list[Path]:
     ]
     if test.place is not None:
         place = test.place
-        found = [(path, node) for path, node in found if _is_at(setting, _place_of(state.plan, path), place)]
+        found = [(path, node) for path, node in found if _is_at(setting, place_of(state.plan, path), place)]
     if not found:
         raise NotComposed(message("nothing before it measures that", context="fault"))
     actions = [node.act.action for _, node in found if node.act is not None]
@@ -307,7 +370,7 @@ def _fits(node: p.Node, test: Test, setting: Setting) -> bool:
     return fits(node, replace(test, unit="") if relative else test, setting.robot)
 
 
-def _place_of(plan: p.InOrder, path: Path) -> s.Selector:
+def place_of(plan: p.InOrder, path: Path) -> s.Selector:
     """Return the place of a capture: its own, that of the visits around it, or that of the last drive before it."""
     node = node_at(plan, path)
     if node.selector is not None:

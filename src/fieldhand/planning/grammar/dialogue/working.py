@@ -8,6 +8,7 @@ from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.commands.laps import goes_around, is_thin
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, Spans, with_step
+from fieldhand.planning.grammar.dialogue.that_ground import ground_spoken_of
 from fieldhand.planning.grammar.meaning import DriveCommand, WorkCommand
 from fieldhand.planning.grammar.places.sampling import bare_points, is_keep_out
 from fieldhand.planning.selections import are_rows
@@ -29,12 +30,14 @@ def work_along(setting: Setting, state: DialogueState, command: WorkCommand) -> 
         along, mode = ground, "area"
     if along is None:
         before = state.area or state.lead
-        if before is None or before.place.shape != "area" or before.place.selector.relative:
+        named = before is not None and before.place.shape == "area" and not before.place.selector.relative
+        ground = before.place.selector if before is not None and named else None if before else ground_spoken_of(state)
+        if ground is None or (before is None and not command.it):
             raise NotComposed(
                 message("it does not say where", context="fault"),
                 advice=message("say along which rows, between which rows, or over which area"),
             )
-        along, said = before.place.selector, (*setting.spans_of(before.used), *said)
+        along, said = ground, (*(() if before is None else setting.spans_of(before.used)), *said)
         state = replace(state, area=None, lead=None)
         implement = setting.robot.action[command.action].implement
         if not are_rows(along) and implement is not None and implement.covers:

@@ -26,6 +26,7 @@ from fieldhand.planning.selections import (
     as_nearest,
     as_zone,
     chooses_from_trees,
+    is_description,
     is_one_row,
     is_spot,
     over,
@@ -826,6 +827,8 @@ def _of_every(m: int, n: int, of: s.Selector) -> s.Selector | None:
 
 
 def _evenly(n: int, of: s.Selector) -> s.Selector | None:
-    """Return trees that are evenly spaced along one row."""
+    """Return trees that are evenly spaced along one row, or spread over those of a description."""
     rows = {part for part in of.walk() if are_rows(part)}
+    if not rows and is_description(of):
+        return s.Spread(count=n, of=of)  # "five evenly spread leeks"
     return s.Evenly(count=n, of=of) if len(rows) == 1 and all(is_one_row(part) for part in rows) else None

@@ -25,6 +25,7 @@ from fieldhand.planning.selections import (
     as_some,
     blocks_of,
     centre_of,
+    is_block,
     is_end_of_site,
     is_in_block,
     is_one_row,
@@ -269,7 +270,8 @@ def _parts_out(whole: PlaceMeaning, out: Omission, site: Site) -> list[s.Selecto
 def rows_left_out(rows: s.Selector, out: Omission, site: Site) -> s.Selector | None:
     """Return the rows that numbers and positions behind rows leave out."""
     blocks = set(blocks_of(rows))
-    if len(blocks) > 1 or (out.positions and any(row.every > 1 or row.first for row in rows_of(rows))):
+    chosen = any(row.every > 1 or row.first or not (row.of == s.Trees() or is_block(row.of)) for row in rows_of(rows))
+    if len(blocks) > 1 or (out.positions and chosen):
         return None  # "rows 3 to 7 except the first": the third, or the first of the block?
     if out.value is not None:  # "each bed except the covered ones"
         kind = s.Where(attribute=out.value[0], test="eq", value=out.value[1], of=out.area or s.Trees())

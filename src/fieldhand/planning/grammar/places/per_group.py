@@ -11,7 +11,7 @@ from fieldhand.planning.grammar.meaning import PlaceMeaning
 from fieldhand.planning.grammar.places.points import Points
 from fieldhand.planning.grammar.places.sampling import bare_points
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import are_rows, as_zone, is_one_row
+from fieldhand.planning.selections import are_rows, as_where, as_zone, is_one_row
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -20,14 +20,21 @@ construction = GRAMMAR.construction
 
 @dataclass(frozen=True, slots=True)
 class SoManyEach:
-    """A number of places in each of several areas."""
+    """A number of places in each of several areas.
+
+    Attributes:
+        count: The number.
+        random: True if they are drawn at random, else they are spread.
+        of_rows: True if the phrase says that it is of each row.
+    """
 
     count: int
     random: bool = False
+    of_rows: bool = False
 
     @property
     def how(self) -> Literal["spread", "random"]:
-        """How they are chosen."""
+        """The way in which they are chosen."""
         return "random" if self.random else "spread"
 
 
@@ -45,7 +52,6 @@ def spots_there() -> str:
 
 @construction(
     "in_each: n=count spots_there INEACH [COMMA] [evenly_there]",
-    "in_each: n=count spots_there in_ EACH [OF] ROW [COMMA] [evenly_there]",
     "in_each: n=count evenly_there spots_there INEACH",
     "in_each: n=count INEACH [COMMA] evenly_there",
     "in_each: n=count READING INEACH [COMMA] [evenly_there]",
@@ -55,6 +61,12 @@ def spots_there() -> str:
 def so_many_in_each(n: int) -> SoManyEach:
     """Compose "four spots in each, nicely spread out"."""
     return SoManyEach(n)
+
+
+@construction("in_each: n=count spots_there in_ EACH [OF] ROW [COMMA] [evenly_there]", cost=0.0)
+def so_many_in_each_bed(n: int) -> SoManyEach:
+    """Compose "three places in each bed"."""
+    return SoManyEach(n, of_rows=True)
 
 
 @construction(
@@ -94,10 +106,16 @@ def of_rows_so_many_each(rows: s.Selector, n: SoManyEach, more: s.Selector | Non
 @construction(
     "place: of=crop_area [COMMA] n=in_each", "place: of=crop_area AND [in_] more=crop_area [COMMA] n=in_each", cost=0.1
 )
-def of_crops_so_many_each(of: s.Selector, n: SoManyEach, more: s.Selector | None = None) -> PlaceMeaning:
-    """Compose "in the leeks and in the onions, at three places in each bed"."""
+def of_crops_so_many_each(of: s.Selector, n: SoManyEach, more: s.Selector | None = None) -> PlaceMeaning | None:
+    """Compose "the leeks and the onions, three plants of each", which are of each crop; of one, of each of its beds."""
     plants = of if more is None else s.UnionOf(parts=(*of.members, *more.members))
-    return PlaceMeaning(s.Quota(per="row", count=n.count, how=n.how, of=plants), "several")
+    kinds = [as_where(one) for one in plants.members]
+    if n.of_rows or len(kinds) < 2:
+        return PlaceMeaning(s.Quota(per="row", count=n.count, how=n.how, of=plants), "several")
+    named = {one.attribute for one in kinds if one is not None and one.of == s.Trees()}
+    if None in kinds or len(named) != 1:
+        return None
+    return PlaceMeaning(s.Quota(per=named.pop(), count=n.count, how=n.how, of=plants), "several")
 
 
 @construction(

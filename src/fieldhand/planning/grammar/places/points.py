@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import PlaceMeaning
+from fieldhand.planning.grammar.meaning import THAT_GROUND, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import OPEN_NUMBER, as_zone
@@ -121,11 +121,20 @@ def spread_out(points: Points) -> Points | None:
     "points: points=points [COMMA] in_ where=ground", "points: points=points [COMMA] OVER where=ground",
     "points: points=points [COMMA] SPREAD where=ground", "points: points=points EVENLYALONG where=ground",
     "points: points=points OPPOSITE where=ground", "points: points=points ALONG where=ground",
+    "points: points=points there=THERE", "points: points=points in_ there=IT", "points: points=points OVER there=IT",
     cost=0.0,
 )  # fmt: skip
-def somewhere(points: Points, where: Ground) -> Points | None:
-    """Compose "spots all over the slope"."""
-    return replace(points, where=where) if points.where is None else None
+def somewhere(points: Points, where: Ground | None = None, there: Lex | None = None) -> Points | None:
+    """Compose "spots all over the slope" and "six spots there"."""
+    if points.where is not None or (there is not None and "of_several" in there.features):
+        return None
+    return replace(points, where=where or Ground(THAT_GROUND))
+
+
+@construction("place: ITS MIDDLE", "place: [DET] MIDDLE OF IT", cost=0.2)
+def its_middle() -> PlaceMeaning:
+    """Compose "its middle", of the zone or the row that was spoken of."""
+    return PlaceMeaning(s.Middle(of=s.InZone(zone=THAT_GROUND)), "one")
 
 
 @construction("points: where=ground [COMMA] word=AT points=points", cost=0.2)

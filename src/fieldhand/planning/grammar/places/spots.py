@@ -89,16 +89,16 @@ def corners(noun: Lex, n: int | None = None) -> Nominal | None:
 
 @construction(
     "place: [DET] MIDDLE in_ site",
-    "place: [DET] MIDDLE",
-    "place: [DET] MIDDLE TREE",
+    "place: [word=DET] MIDDLE",
+    "place: [word=DET] MIDDLE TREE",
     "place: [DET] MIDDLE ONE",
     "place: [DET] TREE NEAREST [AT] DET MIDDLE [in_] [site]",
     "place: DET TREE NEAR DET MIDDLE [in_] [site]",
     cost=0.2,
 )
-def middle() -> PlaceMeaning:
-    """Compose "the middle of the orchard"."""
-    return PlaceMeaning(s.Middle(), "one")
+def middle(word: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "the middle of the orchard"; "its middle" is that of something else."""
+    return None if word is not None and "of_it" in word.features else PlaceMeaning(s.Middle(), "one")
 
 
 @construction(
