@@ -175,7 +175,8 @@ def test_the_page_of_sites_defines_every_selector() -> None:
 
 
 #: Files of a user or of a mission, of which the docs speak beside files of the repository.
-THEIRS = {"scout.yaml", "mine.yaml", "robot.yaml", "world.yaml", "w.yaml", "trusted/", "keys/", "site/"}
+NAV2 = {"map.yaml", "keepout.yaml", "speed.yaml", "path.yaml", "nav2_params.yaml"}
+THEIRS = NAV2 | {"scout.yaml", "mine.yaml", "robot.yaml", "world.yaml", "w.yaml", "trusted/", "keys/", "site/"}
 
 
 @pytest.mark.parametrize("page", PAGES, ids=page_name)

@@ -13,6 +13,7 @@ import typer
 from mcap.reader import make_reader
 
 from fieldhand.cli.export import export
+from fieldhand.cli.export_nav2 import export_site
 from fieldhand.cli.import_tree import import_tree
 from fieldhand.cli.replay import replay
 from fieldhand.cli.report import report
@@ -21,6 +22,7 @@ from fieldhand.task.codec import encode
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.results import Started
 from support.missions.exported import STRAIGHT, flight, task_of
+from support.processes.command import fieldhand
 
 Command = Callable[..., None]
 
@@ -140,3 +142,50 @@ def test_an_mcap_file_that_is_made_of_a_log_begins_when_the_mission_did(files: P
     with (files / "log.mcap").open("rb") as file:
         first = min(message.log_time for _, _, message in make_reader(file).iter_messages())
     assert first == pytest.approx((began.timestamp() + events[0].t) * 1e9)
+
+
+AT_DEMO = "37.0708,-120.2579"
+
+
+def test_a_site_goes_to_a_folder_for_nav2(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "task.xml").write_bytes(encode(task_of(STRAIGHT)))
+    given = {"site": "demo", "datum": AT_DEMO, "resolution": 0.5, "output": tmp_path / "out"}
+    call(export_site, **(given | {"json": True}))
+    facts = json.loads(capsys.readouterr().out)
+    assert sorted(facts["files"]) == sorted(path.name for path in (tmp_path / "out").iterdir())
+    assert "path.yaml" not in facts["files"]
+    assert facts["datum"] == {"lat": 37.0708, "lon": -120.2579, "heading_deg": 90.0}
+    assert f"{facts['columns']} {facts['rows']}".encode() in (tmp_path / "out" / "map.pgm").read_bytes()[:20]
+    features = json.loads((tmp_path / "out" / "route.geojson").read_text())["features"]
+    assert len(features) == facts["nodes"] + facts["edges"]
+    call(export_site, **(given | {"task": str(tmp_path / "task.xml"), "datum": f"{AT_DEMO},0"}))
+    said = capsys.readouterr().out
+    assert "All drives are clear of the map" in said
+    assert (tmp_path / "out" / "path.yaml").exists()
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({}, "--site: no site is given; give the site's file, or demo"),
+        ({"site": "demo"}, "--datum: the profile of husky does not state"),
+        ({"site": "demo", "datum": "here"}, "--datum: here is no position in degrees; give latitude and longitude"),
+        ({"site": "demo", "datum": "37,-120,90,4"}, "is no position"),
+        ({"site": "demo", "datum": "nan,-120"}, "is no position"),
+        ({"site": "demo", "datum": "91,-120"}, "is no position"),
+        ({"site": "demo", "datum": "38,-120"}, "km from the site"),
+        ({"task": "none.xml", "site": "demo"}, "there is no such file"),
+    ],
+)
+def test_bad_input_for_nav2_gets_one_line(tmp_path: Path, given: dict[str, object], said: str) -> None:
+    with pytest.raises(InputError, match=said) as caught:
+        call(export_site, **(given | {"output": tmp_path / "out"}))
+    assert "\n" not in str(caught.value)
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_command_is_not_named_for_a_mission() -> None:
+    run = fieldhand("export", "none.jsonl", "--to", "events", "-o", "-")
+    assert run.status == 2
+    assert run.err.startswith("fieldhand: none.jsonl: there is no such file; give the event log of a mission")
+    assert "nav2" in fieldhand("export", "--help").out

@@ -24,7 +24,6 @@ _COMMANDS: Final = {
     "missions": "missions",
     "report": "report",
     "replay": "replay",
-    "export": "export",
     "send": "send",
     "outbox": "outbox",
     "watch": "watch",
@@ -40,7 +39,7 @@ _COMMANDS: Final = {
 _RENAMED: Final = {"import": ("import_tree", "import_tree"), "return": ("tell", "come_home")}
 
 #: Groups of commands, each with its module.
-_GROUPS: Final = {"robot": "robot", "keys": "keys"}
+_GROUPS: Final = {"export": "exports", "robot": "robot", "keys": "keys"}
 
 
 def assemble(*others: Callable[..., None], only: str | None = None) -> typer.Typer:

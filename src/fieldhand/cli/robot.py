@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
-from typer.core import TyperGroup
 
 from fieldhand.cli.calibrate import calibrate
+from fieldhand.cli.default_command import GroupWithDefault
 from fieldhand.cli.options import JsonOption
 from fieldhand.cli.outputs import to_file
 from fieldhand.cli.robot_check import check
@@ -17,12 +17,10 @@ if TYPE_CHECKING:
     from fieldhand.robot.model import Action, RobotProfile
 
 
-class _ShowByDefault(TyperGroup):
-    """A group of commands with ``show`` as the default: ``fieldhand robot husky`` is ``fieldhand robot show husky``."""
+class _ShowByDefault(GroupWithDefault):
+    """``fieldhand robot husky`` is ``fieldhand robot show husky``."""
 
-    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        named = args and args[0] not in (*self.commands, *ctx.help_option_names)
-        return super().parse_args(ctx, ["show", *args] if named else args)
+    default = "show"
 
 
 robot = typer.Typer(

@@ -38,6 +38,7 @@ from fieldhand.task.results import (
     LimitCrossed,
     Obstructed,
     Shed,
+    Strayed,
     Visiting,
     Waited,
     Worked,
@@ -95,7 +96,7 @@ class _Replay:
         self._orderly = any(isinstance(e, Ended) and e.status in ("completed", "returned", "exceeded") for e in events)
         # The exit itself belongs to the plan only where a stop took it: then it names that stop.
         # What stood in the way, waiting, events, and what was crossed say nothing of the plan.
-        aside = (Obstructed, Waited, ClockSet, LimitCrossed, EventBegan, EventEnded)
+        aside = (Obstructed, Strayed, Waited, ClockSet, LimitCrossed, EventBegan, EventEnded)
         self._events = [e for e in events[: over + 1] if e.node in self._inside[plan.id] and not isinstance(e, aside)]
         self._next = 0
         self._of: dict[str, list[int]] = {}

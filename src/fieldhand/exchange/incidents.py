@@ -20,6 +20,7 @@ from fieldhand.task.results import (
     Paused,
     Resumed,
     Started,
+    Strayed,
     Waited,
     Worked,
 )
@@ -67,6 +68,8 @@ def incidents(events: Sequence[Event], tell: Callable[[Event], str | None]) -> t
             case InDoubt():
                 at = (event.lat, event.lon)
                 found.append(_incident(event, at if known(at) else here, tell, event.place))
+            case Strayed():
+                found.append(_incident(event, here, tell, event.place))
             case Resumed() | Paused() | Continued() | Waited() | LimitCrossed() | ClockSet() | Faulted():
                 stood = position_of(event) or _stood(events, k) or here
                 found.append(_incident(event, stood, tell, ""))
@@ -77,7 +80,7 @@ def incidents(events: Sequence[Event], tell: Callable[[Event], str | None]) -> t
 
 def position_of(event: Event) -> LatLon | None:
     """Return the robot position recorded in an event."""
-    if isinstance(event, Started | Arrived | Worked | Resumed | Obstructed | LimitCrossed | Ended):
+    if isinstance(event, Started | Arrived | Worked | Resumed | Obstructed | Strayed | LimitCrossed | Ended):
         return (event.lat, event.lon) if known((event.lat, event.lon)) else None
     return None
 

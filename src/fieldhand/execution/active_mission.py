@@ -54,6 +54,7 @@ from fieldhand.task.results import (
     InDoubt,
     MissionStatus,
     Resumed,
+    Strayed,
     Worked,
     Working,
 )
@@ -132,6 +133,7 @@ class ActiveMission:
             on_restart=self._restarted,
             on_doubt=self._in_doubt,
             slow=self.slow,
+            on_strayed=self._strayed,
         )
         self.blockages = Blockages(drives)
         self._begun_s = self.clock.now()
@@ -605,6 +607,24 @@ class ActiveMission:
             self._emit_working(self._open, goal)
             return
         self._emit_driving("" if self._open is None else self._open.node, goal)
+
+    def _strayed(self, away_m: float) -> None:
+        """Record that the robot has left the way of a drive."""
+        doing, position, corridor_m = self._open, self.observation.position, self.robot.corridor_m
+        place = doing.goal.place if isinstance(doing, OpenDrive) else self.here
+        self.emit(
+            Strayed(
+                t=self.t,
+                node="" if doing is None else doing.node,
+                kind=place.kind,
+                place=place.id,
+                lat=position.lat,
+                lon=position.lon,
+                away_m=away_m,
+                corridor_m=away_m if corridor_m is None else corridor_m,
+                travelled_m=self.spent.metres,
+            )
+        )
 
     def _in_doubt(self, goal: ActionGoal, then: InDoubtPolicy, progress: Progress) -> None:
         """Record that a capture is in doubt."""

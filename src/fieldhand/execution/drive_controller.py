@@ -15,6 +15,7 @@ from fieldhand.errors import FieldhandError, OutputError
 from fieldhand.execution.drivers.protocol import AT_M, ActionGoal, DriveGoal, Progress
 from fieldhand.execution.recorded_inputs import RecordedInputs
 from fieldhand.forecast.slow_ground import NO_SLOW_GROUND, SlowGround, rests
+from fieldhand.language import message
 from fieldhand.robot.model import InDoubtPolicy, RobotProfile
 from fieldhand.site.drives import Drive, Drives
 from fieldhand.site.model import Place, Site
@@ -37,6 +38,7 @@ class DriveController:
         on_restart: Called before a drive continues an interrupted one.
         on_doubt: Called for each capture in doubt with the chosen policy and its progress.
         slow: Ground on which the robot drives slowly.
+        on_strayed: Called with the metres by which the robot has left the way of a drive, before it is stopped.
 
     Attributes:
         paused: True while nothing new begins and the robot stands still.
@@ -55,10 +57,13 @@ class DriveController:
         on_restart: Callable[[DriveGoal], None],
         on_doubt: Callable[[ActionGoal, InDoubtPolicy, Progress], None],
         slow: SlowGround = NO_SLOW_GROUND,
+        on_strayed: Callable[[float], None] = lambda _: None,
     ) -> None:
         self.paused = False
         self._inputs, self._site, self._robot, self._ways, self._speed = inputs, site, robot, ways, speed
-        self._on_restart, self._on_doubt = on_restart, on_doubt
+        self._on_restart, self._on_doubt, self._on_strayed = on_restart, on_doubt, on_strayed
+        #: Metres by which the robot has left the way of the part under way; None while it is on it.
+        self._off_way_m: float | None = None
         self._slow, self.limit_m_s = slow, math.inf
         #: The part of a drive that is under way without the limit of the moment, and what follows it.
         self._part: DriveGoal | None = None
@@ -96,9 +101,10 @@ class DriveController:
             progress = self._inputs.observation.progress
             if not progress.over:
                 self._track(progress)
+                self._keep_to_way()
                 return self._sum(progress)
             self._under_way = False
-            self._conclude(self._goal, progress)
+            self._conclude(self._goal, self._judged(progress))
         return self._result or Progress(state="idle")
 
     def cancel(self) -> None:
@@ -143,7 +149,7 @@ class DriveController:
     def _begin(self) -> None:
         """Start the goal, or what is left of it."""
         goal, rest = self._goal, self._rest
-        self._broken_off, self._part, self._rest = False, None, None
+        self._broken_off, self._part, self._rest, self._off_way_m = False, None, None, None
         works = isinstance(goal, DriveGoal) and goal.work is not None
         try:
             if (
@@ -189,6 +195,27 @@ class DriveController:
         if len(parts) < 2:
             return (dataclasses.replace(way, speed_m_s=parts[0].speed_m_s) if parts else way), None
         return cut_way(self._site, way, parts[0].to_m, parts[0].speed_m_s)
+
+    def _keep_to_way(self) -> None:
+        """Stop a drive that has left its way by more than the profile allows."""
+        corridor_m, part, seen = self._robot.corridor_m, self._part, self._inputs.observation
+        stops = self._off_way_m is not None or self._cancelled or self._broken_off
+        if corridor_m is None or part is None or stops or seen.lost is not None:
+            return
+        away_m = Stretch(name="", points=part.path_m, on=()).away_m(seen.position.xy)
+        if away_m > corridor_m:
+            self._off_way_m = away_m
+            self._on_strayed(away_m)
+            self._inputs.cancel()
+
+    def _judged(self, progress: Progress) -> Progress:
+        """Return the end of a driver goal; a drive that was stopped because it left its way has failed."""
+        if self._off_way_m is None or progress.state != "cancelled" or self._cancelled or self._broken_off:
+            return progress
+        if self._inputs.observation.stopped is not None:
+            return progress
+        what = message("left the approved way by {metres} m", context="log", metres=f"{self._off_way_m:.1f}")
+        return dataclasses.replace(progress, state="failed", fault="failed", what=what)
 
     def _is_at(self, xy: tuple[float, float]) -> bool:
         return math.dist(self._inputs.observation.position.xy, xy) <= AT_M

@@ -60,6 +60,11 @@ class SlowGround:
         """Return the lowest limit in m/s; infinite without slow ground."""
         return min((speed for _, speed in self._grounds), default=math.inf)
 
+    @property
+    def grounds(self) -> tuple[tuple[BaseGeometry, float], ...]:
+        """Return the outlines in metres east and north, each with its speed limit in m/s."""
+        return tuple(self._grounds)
+
     def __bool__(self) -> bool:
         return bool(self._grounds)
 

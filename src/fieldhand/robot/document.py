@@ -64,6 +64,8 @@ def _label(value: str) -> str:
 _WIDEST = 100.0
 
 Breadth = Annotated[Positive, Field(le=_WIDEST)]
+#: A drive begins up to 0.5 m from where its way does.
+Corridor = Annotated[NumberField, Field(ge=0.6, le=_WIDEST)]
 Retries = Annotated[int, BeforeValidator(no_bool), Field(ge=0, le=10)]
 Wait = Annotated[NumberField, Field(ge=0, le=3600)]
 Synonyms = Annotated[tuple[Annotated[str, AfterValidator(_word)], ...], AfterValidator(each_once)]
@@ -293,6 +295,7 @@ class ProfileDocument(Keyed):
     width_m: Breadth
     standoff_m: Breadth | None = None
     slow_m_s: Positive | None = None
+    corridor_m: Corridor | None = None
     retries: Retries = 1
     patience: PatienceDocument = PatienceDocument()
     energy: EnergyDocument

@@ -261,6 +261,7 @@ def _profile(document: ProfileDocument, *, sha256: str, source: str) -> RobotPro
         quantities=tuple(_quantity(name, q) for name, q in document.quantities.items()),
         speed_m_s=document.speed_m_s,
         slow_m_s=document.slow_m_s,
+        corridor_m=document.corridor_m,
         width_m=document.width_m,
         standoff_m=document.width_m / 2 + CANOPY_M if document.standoff_m is None else document.standoff_m,
         energy=Energy(

@@ -224,6 +224,8 @@ class RobotProfile:
         ros2: ROS 2 interfaces; None for a robot that is only simulated.
         slow_m_s: Driving speed that "slowly" means in a request, in metres per second; None to ask.
         events: Events that it detects all the time.
+        corridor_m: Greatest distance in metres from the way of a drive, beyond which the robot is stopped; None for
+            any.
     """
 
     name: str
@@ -242,6 +244,7 @@ class RobotProfile:
     ros2: Ros2Bindings | None = None
     slow_m_s: float | None = None
     events: tuple[MonitoredEvent, ...] = ()
+    corridor_m: float | None = None
 
     __repr__ = short_repr
 

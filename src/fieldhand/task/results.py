@@ -314,6 +314,22 @@ class Obstructed:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Strayed:
+    """The robot left the way of a drive by ``away_m``, more than the ``corridor_m`` of its profile, and is stopped."""
+
+    event: ClassVar[str] = "strayed"
+    t: float
+    node: str
+    kind: str
+    place: str
+    lat: float
+    lon: float
+    away_m: float
+    corridor_m: float
+    travelled_m: float
+
+
+@dataclass(frozen=True, kw_only=True)
 class Dwelling:
     """The robot begins to stand still for some seconds, because the plan says so."""
 
@@ -488,6 +504,7 @@ Event = (
     | Decided
     | Shed
     | Obstructed
+    | Strayed
     | Dwelling
     | Dwelt
     | Waited

@@ -6,7 +6,16 @@ from collections.abc import Callable
 
 from fieldhand.clock import clock_time
 from fieldhand.language import counted, joined, kept_in_log, message, named, shaped
-from fieldhand.language.words import capitalised, say_name, say_number, say_place, say_unit, say_wait, some_names
+from fieldhand.language.words import (
+    capitalised,
+    say_name,
+    say_number,
+    say_place,
+    say_rounded,
+    say_unit,
+    say_wait,
+    some_names,
+)
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.exceeded import say_status
 from fieldhand.task.frames import Task
@@ -34,6 +43,7 @@ from fieldhand.task.results import (
     Resumed,
     Shed,
     Started,
+    Strayed,
     Visiting,
     Waited,
     Worked,
@@ -117,6 +127,13 @@ class EventText:
                 return _shed(event)
             case Obstructed():
                 return _obstructed(event)
+            case Strayed():
+                return message(
+                    "LEFT THE WAY to {place} by {metres} m, at most {most} m are allowed; it is stopped",
+                    place=say_place(event.kind, event.place),
+                    metres=say_rounded(event.away_m, 1),
+                    most=say_number(event.corridor_m, 3),
+                )
             case Dwelling():
                 return message("waits {time}", time=say_wait(event.seconds))
             case Dwelt():

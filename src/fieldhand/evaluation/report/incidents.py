@@ -29,6 +29,7 @@ from fieldhand.task.results import (
     Resumed,
     Shed,
     ShedCause,
+    Strayed,
     Waited,
 )
 from fieldhand.wording.events import EventText
@@ -96,7 +97,16 @@ def faults(robot: RobotProfile, events: Sequence[Event], names: PlaceNames) -> F
             lines.append(f"{clock_time(event.t)}: {what}: {event.what}")
         elif isinstance(
             event,
-            Obstructed | Waited | EventBegan | EventEnded | LimitCrossed | ClockSet | Resumed | Paused | Continued,
+            Obstructed
+            | Strayed
+            | Waited
+            | EventBegan
+            | EventEnded
+            | LimitCrossed
+            | ClockSet
+            | Resumed
+            | Paused
+            | Continued,
         ):
             lines.append(f"{clock_time(event.t)}: {text.brief(event)}")
     return _folded(lines, f"{say_count(len(lines), 'line')}, including failed tries.")

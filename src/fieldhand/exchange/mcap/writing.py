@@ -46,6 +46,7 @@ from fieldhand.task.results import (
     Resumed,
     Shed,
     Started,
+    Strayed,
     Waited,
     Worked,
     Working,
@@ -59,7 +60,7 @@ if TYPE_CHECKING:
 #: Levels of foxglove.Log.
 _INFO, _WARNING, _ERROR = 2, 3, 4
 #: Events that are logged as warnings.
-_DOUBTFUL = InDoubt | Resumed | Obstructed | Waited | LimitCrossed | ClockSet
+_DOUBTFUL = InDoubt | Resumed | Obstructed | Strayed | Waited | LimitCrossed | ClockSet
 #: Interval between positions along a drive, in seconds.
 _EVERY_S = 1.0
 #: Maximum number of positions along one drive.
@@ -154,7 +155,7 @@ class McapLog:
             self._began = _seconds_of(event.at)
         if isinstance(event, Started) and self._site is not None:
             yield self._geojson("/site", event.t, _site_features(self._site))
-        if isinstance(event, Arrived | Worked | Obstructed | Resumed | Ended):
+        if isinstance(event, Arrived | Worked | Obstructed | Strayed | Resumed | Ended):
             yield from self._along(event, (event.lat, event.lon))
         self._count += 1
         topic, schema = EVENTS + event.event, schema_of(type(event))

@@ -70,6 +70,7 @@ _TOGETHER_M = 1.5
 #: Sign and legend of each event. The end of a pause appears only among the lines.
 SIGNS = {
     "obstacle": ("!", "way blocked"),
+    "strayed": ("L", "left the way"),
     "in_doubt": ("?", "capture in doubt"),
     "wait": ("W", "waited"),
     "fault": ("F", "fault"),

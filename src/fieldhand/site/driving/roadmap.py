@@ -60,12 +60,18 @@ class Roadmap:
         return int(apart[0]) if len(apart) else None
 
 
-def roadmap_of(layout: Layout, places: tuple[Place, ...]) -> Roadmap:
-    """Return the road map of places, each with its stand."""
+def roadmap_of(layout: Layout, places: tuple[Place, ...], *, always_edges: bool = False) -> Roadmap:
+    """Return the road map of places, each with its stand.
+
+    Args:
+        layout: Drivable layout of the site.
+        places: The places, with their stands.
+        always_edges: Return the edges also if all drives are straight lines.
+    """
     stands = [p.stand or p.xy for p in places]
     at = np.array(stands).reshape(-1, 2)
-    spots = layout.spots(stands) if layout.open else []
-    if not spots or layout.is_one_view(spots):
+    spots = layout.spots(stands) if layout.open or always_edges else []
+    if not spots or (layout.is_one_view(spots) and not always_edges):
         none = np.empty((0, 2), dtype=np.int64)
         return Roadmap(places=places, at=at, ways=none, lengths=np.empty(0), straight=True)
     # A stand off the drivable ground is joined to its foot only, so no path leads through it.

@@ -1,21 +1,19 @@
-"""Conversion between degrees and the robot's map frame, and poses as ROS messages."""
+"""Points in the robot's map frame, and poses as ROS messages."""
 
 from __future__ import annotations
 
 import itertools
 import math
 from collections.abc import Callable, Generator, Sequence
-from functools import lru_cache
-
-import numpy as np
 
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.protocol import DriveGoal
 from fieldhand.execution.drivers.ros2.message_fields import number_at
 from fieldhand.execution.drivers.ros2.service_call import TimeLimit, call_service
 from fieldhand.execution.drivers.ros2.transport import Client, RosMessage
-from fieldhand.robot.bindings import Datum, FieldBinding
-from fieldhand.site.projection import Projection
+from fieldhand.robot.bindings import FieldBinding
+from fieldhand.robot.map_datum import degrees_to_map as degrees_to_map
+from fieldhand.robot.map_datum import map_to_degrees as map_to_degrees
 
 Point = tuple[float, float]
 
@@ -26,28 +24,6 @@ _SCALE, _SLACK_M = 0.01, 0.25
 _TURN_M = 1.0
 
 _X, _Y = FieldBinding(path="map_point.x"), FieldBinding(path="map_point.y")
-
-
-@lru_cache(maxsize=16)
-def _around(datum: Datum) -> Projection:
-    """Return the projection around a datum; cached, because construction is slow."""
-    return Projection(datum.lat, datum.lon)
-
-
-def degrees_to_map(datum: Datum, degrees: Sequence[Point]) -> tuple[Point, ...]:
-    """Return map coordinates in metres of points in (lat, lon); error below 1 cm within 5 km of the datum."""
-    east, north = _around(datum).metres(*np.asarray(degrees, dtype=float).T).T
-    sin, cos = math.sin(math.radians(datum.heading_deg)), math.cos(math.radians(datum.heading_deg))
-    x, y = east * sin + north * cos, north * sin - east * cos
-    return tuple((float(a), float(b)) for a, b in zip(x, y, strict=True))
-
-
-def map_to_degrees(datum: Datum, point: Point) -> Point:
-    """Return latitude and longitude of a map point: the inverse of :func:`degrees_to_map`."""
-    sin, cos = math.sin(math.radians(datum.heading_deg)), math.cos(math.radians(datum.heading_deg))
-    x, y = point
-    lat, lon = _around(datum).degrees((x * sin - y * cos, x * cos + y * sin))[0]
-    return float(lat), float(lon)
 
 
 def query_map_points(

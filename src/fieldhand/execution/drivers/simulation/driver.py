@@ -32,6 +32,12 @@ from fieldhand.site.working.stretch import total_m
 #: Seconds within which two times are equal: clocks add floating-point numbers.
 EPSILON_S = 1e-6
 
+#: Interval in seconds at which a robot that leaves its way is to be looked at.
+_REPORTED_S = 0.5
+
+#: Part of a path, before and behind its middle, on which a robot strays; part of it that gives its direction.
+_STRAYS, _STEP = 0.25, 0.001
+
 
 @dataclass(frozen=True, kw_only=True)
 class _Course:
@@ -46,6 +52,7 @@ class _Course:
         action_j: Energy of the action in joules, spread evenly over its duration, or over the metres on which an
             implement is on.
         on: Those parts of the whole path, as metres from its begin.
+        strays_m: Greatest distance in metres to the right of the path, in its middle.
         meets: Hindrance that ends it.
         docks: Connected to the charger after it succeeded; None for no change.
     """
@@ -61,6 +68,7 @@ class _Course:
     readings: Mapping[str, float] = field(default_factory=dict)
     what: str = ""
     fault: GoalFault = "none"
+    strays_m: float = 0.0
     meets: Hindrance | None = None
     docks: bool | None = None
 
@@ -85,6 +93,17 @@ class _Course:
         at_m = done * self.reach * sum(math.dist(a, b) for a, b in itertools.pairwise(self.path))
         worked_m = sum(max(0.0, min(end, at_m) - begin) for begin, end in self.on)
         return self.action_j * min(1.0, worked_m / total_m(self.on))
+
+    def at(self, done: float) -> Point:
+        """Return the position of the robot after a fraction of the course."""
+        part = self.reach * done
+        x, y = _along(self.path, part)
+        away_m = self.strays_m * max(0.0, 1.0 - abs(part - 0.5) / _STRAYS)
+        if away_m == 0.0:
+            return (x, y)
+        (x0, y0), (x1, y1) = (_along(self.path, min(1.0, max(0.0, part + step))) for step in (-_STEP, _STEP))
+        length = math.hypot(x1 - x0, y1 - y0)
+        return (x, y) if length == 0.0 else (x + away_m * (y1 - y0) / length, y - away_m * (x1 - x0) / length)
 
     def done_at(self, now: float) -> float:
         """Return the fraction of the course that is done, 0 to 1."""
@@ -148,6 +167,8 @@ class SimulatedDriver:
         )
         if goal.work is not None and goal.work.action:
             course = whole = self._with_implement(course, goal, goal.work)
+        if not self.lost():
+            course = whole = replace(course, strays_m=self._truth.strays_by_m(goal.place))
         if not self.lost() and (what := self._truth.drive_fails(goal.place)):
             course = replace(course.cut(0.5), what=what, fault="failed")
         if goal.work is not None and (failing := self._truth.implement_fails(goal.work, goal.path_m)) is not None:
@@ -250,13 +271,15 @@ class SimulatedDriver:
         stop = self._truth.stop
         if stop is not None:
             over_s = min(over_s, self._begun_s + stop.at_s)
+        if self._course.strays_m:  # whoever watches its position looks as often as a robot reports it
+            over_s = min(over_s, self._clock.now() + _REPORTED_S)
         return max(0.0, over_s - self._clock.now())
 
     def _at(self) -> Point:
         """Return where it is, in local metres."""
         if self._course is None or not self._course.path:
             return self._xy
-        return _along(self._course.path, self._course.reach * self._course.done_at(self._clock.now()))
+        return self._course.at(self._course.done_at(self._clock.now()))
 
     def position(self) -> Position:
         x, y = self._at()
@@ -361,7 +384,7 @@ class SimulatedDriver:
         self._charge = max(0.0, self._charge - self._used(course, done))
         self._charged_s = course.start_s + done * course.lasts_s
         if course.path:
-            self._xy = _along(course.path, course.reach * done)
+            self._xy = course.at(done)
         if course.docks is not None and state == "succeeded":
             self._docked = course.docks
         self._course = None

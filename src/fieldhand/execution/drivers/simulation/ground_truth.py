@@ -28,6 +28,7 @@ from fieldhand.execution.drivers.simulation.world import (
     DriveFails,
     LocalisationLost,
     RobotStops,
+    RobotStrays,
     SensorAbsurd,
     SensorSilent,
     TreeRef,
@@ -144,6 +145,11 @@ class GroundTruth:
         fails = (n for n, fault in enumerate(self._faults) if isinstance(fault, DriveFails) and self._strikes(n, place))
         return message("the drive gave an error", context="log") if next(fails, None) is not None else ""
 
+    def strays_by_m(self, place: Place) -> float:
+        """Return the metres by which a drive to a place leaves its way, and count it; 0 if it does not."""
+        strays = (f.by_m for n, f in enumerate(self._faults) if isinstance(f, RobotStrays) and self._strikes(n, place))
+        return next(strays, 0.0)
+
     def obstacle(self, path: tuple[Point, ...], when: Callable[[float], float]) -> Hindrance | None:
         """Return the first obstacle of a drive, or None.
 
@@ -256,7 +262,7 @@ class GroundTruth:
             return False
         if not counted and getattr(fault, "times", None) is not None:
             return False
-        if isinstance(fault, ActionFails | SensorSilent | SensorAbsurd | DriveFails):
+        if isinstance(fault, ActionFails | SensorSilent | SensorAbsurd | DriveFails | RobotStrays):
             self._used[number] += 1
         return True
 

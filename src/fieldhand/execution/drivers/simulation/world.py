@@ -68,6 +68,18 @@ class DriveFails:
 
 
 @dataclass(frozen=True, kw_only=True)
+class RobotStrays:
+    """In the middle of a drive to a tree, or of any drive, the robot leaves its way by ``by_m`` metres, and comes back.
+
+    It strays to the right, seen in the direction of travel; to the left if negative.
+    """
+
+    by_m: float
+    times: int | None = None
+    at: TreeRef | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
 class Blocked:
     """An obstacle: a leg that passes within ``within_m`` metres of it ends there.
 
@@ -137,6 +149,7 @@ WorldFault = (
     | SensorSilent
     | SensorAbsurd
     | DriveFails
+    | RobotStrays
     | Blocked
     | LocalisationLost
     | BatteryDrains

@@ -15,6 +15,7 @@ from fieldhand.execution.drivers.simulation.world import (
     DriveFails,
     LocalisationLost,
     RobotStops,
+    RobotStrays,
     SensorAbsurd,
     SensorSilent,
     TreeRef,
@@ -105,6 +106,17 @@ class DriveFailsModel(_AtModel):
     def to_fault(self) -> WorldFault:
         """Return the fault for execution."""
         return DriveFails(times=self.times, at=self.reference)
+
+
+class RobotStraysModel(_AtModel):
+    """A robot that leaves its way."""
+
+    fault: Literal["robot_strays"]
+    by_m: Annotated[float, Field(ge=-1_000, le=1_000, allow_inf_nan=False)]
+
+    def to_fault(self) -> WorldFault:
+        """Return the fault for execution."""
+        return RobotStrays(by_m=self.by_m, times=self.times, at=self.reference)
 
 
 class BlockedModel(Strict):
@@ -212,6 +224,7 @@ AnyFault = (
     | SensorSilentModel
     | SensorAbsurdModel
     | DriveFailsModel
+    | RobotStraysModel
     | BlockedModel
     | LocalisationLostModel
     | BatteryDrainsModel
