@@ -315,7 +315,7 @@ class _LineWriter:
         )
 
     def _optional_visits(self, node: ForEach, text: str, resolved: ResolvedPlaces | None) -> str:
-        at = message("At as many of {trees} as the budget allows", trees=text)
+        at: str = message("At as many of {trees} as the budget allows", trees=text)
         if node.at_most is not None:
             at = message("{at_places}, at most {count}", at_places=at, count=node.at_most)
         if node.reward and node.reward_by != "value":

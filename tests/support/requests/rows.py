@@ -177,7 +177,6 @@ PLANNED = [
         "go TreeIs(50); picture @ Across",
     ),
     ("husky", "take a picture of tree 50 and of the tree opposite", "picture @ TreeIs(50); picture @ Across"),
-    ("husky", "photograph each corner and the tree opposite", "for Corners: [picture; picture @ Across]"),
     (
         "husky",
         "Drive along a row of 5 trees and take a picture at 3 of them.",
@@ -1166,6 +1165,11 @@ ASKED = [
         "husky",
         "take a picture of the last tree in the row",
         "'take a picture of the last tree in the row': from which tree?",
+    ),
+    (
+        "husky",
+        "photograph each corner and the tree opposite",
+        "'the tree opposite': from which tree?",
     ),
     ("husky", "take a picture of the next row", "'take a picture of the next row': from which tree?"),
     (

@@ -21,8 +21,8 @@ _BEAM = 8
 _FILLER_COST = 0.05
 #: Maximum number of successive fillers that are skipped.
 _LONGEST_GAP = 8
-#: Maximum number of combinations of phrases that are tried; requests of everyday length take 300 to 5,000.
-MOST_COMBINATIONS = 30_000
+#: Maximum number of combinations of phrases that are tried; requests of everyday length take 300 to 10,000.
+MOST_COMBINATIONS = 60_000
 
 F = TypeVar("F", bound=Callable[..., Any])
 

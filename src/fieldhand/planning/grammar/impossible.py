@@ -402,7 +402,7 @@ def too_long(time: Amount) -> Impossible | None:
 )  # fmt: skip
 def strip_of_a_width(amount: Amount, robot: RobotProfile) -> Impossible | None:
     """Compose "a strip three metres wide", which is as wide as the implement."""
-    widths = [one.implement.width_m for one in robot.actions if one.implement is not None and one.implement.covers]
+    widths = [width for one in robot.actions if one.implement is not None and (width := one.implement.width_m)]
     if amount.unit != "metres" or not widths:
         return None
     what = message("a strip along an edge is as wide as the implement, {width} m", width=Number(f"{max(widths):g}"))

@@ -265,7 +265,7 @@ class _Candidate:
 
 @dataclass(frozen=True, kw_only=True)
 class _Besides:
-    """What is known of a request besides the words that are read.
+    """Facts about a request besides the words that are read.
 
     Attributes:
         timing: When the mission runs.

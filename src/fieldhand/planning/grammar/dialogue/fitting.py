@@ -11,7 +11,7 @@ from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed
 from fieldhand.planning.grammar.meaning import DriveCommand, Lead, PlaceMeaning, Thing
 from fieldhand.planning.grammar.places.areas import of_each_block
 from fieldhand.planning.grammar.places.numbered import ids_of
-from fieldhand.planning.grammar.places.sampling import bare_points, bare_zone
+from fieldhand.planning.grammar.places.sampling import bare_points, bare_zone, is_keep_out
 from fieldhand.planning.grammar.row_by_row import MOST_ONE_BY_ONE, one_by_one
 from fieldhand.planning.selections import (
     AREAS,
@@ -67,6 +67,10 @@ def in_area(setting: Setting, before: Lead | DriveCommand, place: PlaceMeaning |
         ways = (each, PlaceMeaning(s.Quota(per="row", count=1, of=area), "several"))
         return setting.either("at every tree, or at how many?", before.used, ways)
     if place is None or place.shape in ("here", "those"):
+        if is_keep_out(area, setting.site):
+            zone = as_zone(area)
+            name = "" if zone is None else zone.zone
+            raise NotComposed(message("{name} is a keep-out zone", name=name), advice=message("say 'at its edge'"))
         if place is None or not place.each:
             return PlaceMeaning(area, "area")
         if are_rows(area) and not is_one_row(area) and place.selector != s.Trees():
