@@ -153,7 +153,8 @@ def test_a_map_that_is_turned_otherwise_than_the_profile_says_is_found_before_it
         (201, {}, "failed", "the planner that is configured does not exist (code 201 of Nav2)"),
         (4711, {}, "failed", "navigation failed (code 4711 of Nav2)"),
         (4711, {"codes": {4711: "blocked"}}, "blocked", "navigation failed (code 4711 of Nav2)"),
-        (0, {}, "blocked", "navigation failed without an error code"),
+        (0, {}, "interrupted", "navigation ended the drive without an error code"),
+        (0, {"without_code": "blocked"}, "blocked", "navigation failed without an error code"),
         (0, {"without_code": "failed"}, "failed", "navigation failed without an error code"),
     ],
 )
@@ -178,6 +179,7 @@ def test_what_nav2_says_beside_its_code_is_told_and_a_goal_that_others_cancel_ha
     driver.start_drive(drive(NEAR))
     progress = finish(driver, w.clock)
     assert (progress.state, progress.what) == ("failed", "another client cancelled the drive")
+    assert progress.fault == "interrupted"
 
 
 def test_a_missed_waypoint_is_no_success() -> None:
@@ -188,7 +190,7 @@ def test_a_missed_waypoint_is_no_success() -> None:
     driver.start_drive(drive(NEAR))
     progress = finish(driver, w.clock)
     assert (progress.state, progress.fault, progress.what) == (
-        "failed", "blocked", "the goal lies in an obstacle (code 206 of Nav2)"
+        "failed", "occupied", "the goal lies in an obstacle (code 206 of Nav2)"
     )  # fmt: skip
 
 
