@@ -32,7 +32,7 @@ _LONG_M = 1.0
 _BEFORE_ROW_M = 0.05
 
 #: Half the width in metres of a blocked area where a robot would have stood.
-_STAND_M = 0.25
+_STAND_M = 0.5
 
 #: Least distance in metres from a robot to a blocked area.
 _BESIDE_M = 1e-3
@@ -86,8 +86,9 @@ class Blockages:
         Returns:
             The area that is treated as blocked from now on.
         """
-        half_m = min(_STAND_M, max(_BESIDE_M, math.dist(stand, at) / 2.0))
         x, y = stand
+        away_m = max(abs(at[0] - x), abs(at[1] - y))
+        half_m = max(_BESIDE_M, min(_STAND_M, max(away_m - _AHEAD_M, away_m / 2.0)))
         square = shapely.box(x - half_m, y - half_m, x + half_m, y + half_m)
         self.replace((*self.stretches, square))
         return square

@@ -42,6 +42,8 @@ GoalFault = Literal["none", "failed", "blocked", "occupied", "interrupted", "los
 
 #: Metres within which a robot counts as being at a point.
 AT_M = 0.5
+#: Metres from the end of a drive within which an obstacle counts as standing where the robot would stand.
+NEAR_M = 2.5
 
 
 @dataclass(frozen=True, kw_only=True)

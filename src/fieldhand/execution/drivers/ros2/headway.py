@@ -6,6 +6,8 @@ begins anew. It reports the length of the way that is left, and counts its recov
 
 from __future__ import annotations
 
+import math
+
 from fieldhand.execution.drivers.ros2.message_fields import number_at
 from fieldhand.execution.drivers.ros2.service_call import TimeLimit
 from fieldhand.execution.drivers.ros2.transport import RosMessage
@@ -29,11 +31,13 @@ class Headway:
 
     Attributes:
         recoveries: Number of recoveries of this goal.
+        least_m: Least metres of the way that were left; infinite if the feedback does not tell.
     """
 
     def __init__(self, limit: TimeLimit, most_recoveries: int) -> None:
         self._limit, self._most_recoveries = limit, most_recoveries
         self._best_m: float | None = None
+        self.least_m = math.inf
         self._before = self.recoveries = self._ways = 0
 
     def look(self, feedback: RosMessage) -> str | None:
@@ -42,6 +46,7 @@ class Headway:
         self.recoveries = max(self.recoveries, int(number_at(feedback, _RECOVERIES) or 0))
         if left_m is None:
             return None
+        self.least_m = min(self.least_m, left_m)
         other_way = self._best_m is not None and left_m > self._best_m + _OTHER_WAY_M and self._ways < _MOST_WAYS
         if self._best_m is None or left_m < self._best_m - _NEARER_M or other_way:
             self._ways += other_way

@@ -17,7 +17,7 @@ from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
 
 from fieldhand.errors import Ros2Error
-from fieldhand.execution.drivers.protocol import DriveGoal, Position
+from fieldhand.execution.drivers.protocol import NEAR_M, DriveGoal, Position
 from fieldhand.execution.drivers.ros2.action_client import CANCEL_S, ActionClient
 from fieldhand.execution.drivers.ros2.action_outcome import ActionOutcome, GoalEnd
 from fieldhand.execution.drivers.ros2.drive_end import end_of, ended_without_code
@@ -48,8 +48,6 @@ _FRAME, _STAMP = "current_pose.header.frame_id", "current_pose.header.stamp"
 _X, _Y = (FieldBinding(path=f"current_pose.pose.position.{axis}") for axis in "xy")
 #: Seconds within which the nodes of a navigation that seems to have been restarted are discovered and answer.
 DOUBT_S = 2.5
-#: Metres from the end of a drive within which an obstacle counts as standing where the robot would stand.
-NEAR_M = 2.5
 #: Metres within which two ends without a code occurred at the same place; how many one goal of Nav2 has at most.
 _SAME_M, _MOST_UNEXPLAINED = 1.0, 4
 #: Metres between the points of a path that is followed.
@@ -325,23 +323,24 @@ class RunningDrive:
                 plan: NavigationGoals = planned.value
                 break
             yield
-        last = len(plan.goals) - 1
         for number, (message, there) in enumerate(plan.goals):
             if number and (why := self._navigation.taken()) is not None:
                 return GoalEnd(state="failed", fault="interrupted", what=why)
-            ending = yield from self._reach(message, there, plan, last=number == last)
+            after_m = sum(math.dist(a, b) for (_, a), (_, b) in itertools.pairwise(plan.goals[number:]))
+            ending = yield from self._reach(message, there, plan, after_m)
             if ending.state != "succeeded":
                 return ending
         return GoalEnd(state="succeeded")
 
-    def _reach(self, message: RosMessage, there: Point, plan: NavigationGoals, *, last: bool) -> GoalSteps:
-        """Carry out one goal of Nav2. An end without a code counts as an obstacle only if it occurs twice at a place.
+    def _reach(self, message: RosMessage, there: Point, plan: NavigationGoals, after_m: float) -> GoalSteps:
+        """Carry out one goal of Nav2, after which some metres of the drive are left.
 
-        It also occurs where another client's goal was refused, or a behavior tree timed out on the planner.
+        Where a failure has no code, one counts as an obstacle only if it occurs twice at a place: Nav2 also fails where
+        its behavior tree timed out on the planner.
         """
         stopped_at: Position | None = None
         for attempt in range(_MOST_UNEXPLAINED):
-            ending, unexplained = yield from self._drive(message, there, plan, last=last)
+            ending, unexplained = yield from self._drive(message, there, plan, after_m)
             at = self._navigation.position()
             twice = stopped_at is not None and at is not None and math.dist(at.xy, stopped_at.xy) <= _SAME_M
             if not unexplained or ending.fault != "blocked" or twice or self._cancelled or self._limit.over:
@@ -352,7 +351,7 @@ class RunningDrive:
         return ending
 
     def _drive(
-        self, message: RosMessage, there: Point, plan: NavigationGoals, *, last: bool
+        self, message: RosMessage, there: Point, plan: NavigationGoals, after_m: float
     ) -> Generator[None, None, tuple[GoalEnd, bool]]:
         """Send one goal of Nav2; return how it ended, and True if that was a failure without a code."""
         navigation, client = self._navigation, self._navigation.client_for(self._goal)
@@ -369,12 +368,13 @@ class RunningDrive:
                 client.cancel(why)
             elif not stuck and self._limit.over:
                 why = f"the drive did not end within {self._limit.seconds:.0f} s"
-                stuck = why if headway.recoveries or (last and nearest_m <= NEAR_M) else ""
+                near = after_m + _left_m(headway, nearest_m) <= NEAR_M
+                stuck = why if headway.recoveries or near else ""
                 client.cancel(why)
             elif (why := self._wrong_place(plan)) is not None:
                 client.cancel(why)
             yield
-        near = last and nearest_m <= NEAR_M
+        near = after_m + _left_m(headway, nearest_m) <= NEAR_M
         if (outcome.server and not self._cancelled) or outcome.moving:
             return (yield from self._without_server(outcome, client)), False
         unexplained = ended_without_code(outcome) and not self._cancelled
@@ -480,6 +480,11 @@ class RunningDrive:
                 )
             yield
         return GoalEnd(state="succeeded")
+
+
+def _left_m(headway: Headway, nearest_m: float) -> float:
+    """Return how near a robot came to a goal: by the rest of its way, or if that is unknown in a straight line."""
+    return nearest_m if math.isinf(headway.least_m) else headway.least_m
 
 
 def _pose_on(frame: str, one: Point, two: Point, share: float) -> RosMessage:
