@@ -43,7 +43,7 @@ from support.processes.patience import until
 _FASTER = 5.0
 _LEASE = "<Discovery><LeaseDuration>2s</LeaseDuration></Discovery></Domain>"
 #: So that a mission need not wait for minutes.
-_PATIENCE = Patience(blocked_wait_s=2.0, lost_wait_s=4.0)
+_PATIENCE = Patience(blocked_wait_s=2.0, lost_wait_s=4.0, navigation_wait_s=4.0)
 
 
 class RobotInProcess:

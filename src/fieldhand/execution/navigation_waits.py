@@ -46,7 +46,8 @@ def wait_for_navigation(mission: ActiveMission, node: str) -> Steps:
                 context="log",
                 seconds=f"{patience:g}",
                 why=still,
-            )
+            ),
+            advice=message("check whether Nav2 is active on the robot", context="log"),
         )
 
 
