@@ -28,7 +28,7 @@ from fieldhand.execution.drivers.simulation.world import (
 from fieldhand.execution.mission_runner import Result
 from fieldhand.execution.operator_commands import OperatorCommand
 from fieldhand.places.selectors import TreeIs, UnionOf
-from fieldhand.task.plan import ForEach, InOrder, Node, Try
+from fieldhand.task.plan import ForEach, InOrder, Node, Try, Wait
 from fieldhand.task.results import Driving, Faulted, Obstructed, Paused, Shed, Waited
 from ros2.nav2_rig import SITE, Nav2Rig, act, profile
 from support.examples import examples
@@ -242,6 +242,28 @@ def test_where_there_is_no_other_work_the_mission_fails_and_a_try_goes_on_as_it_
     tried = Try(id="", body=visits("r1c2", "r1c4"), otherwise=act("r3c0"))
     result = _flown(on, NORTH, SOUTH, plan=(tried,))
     assert [place for _, place in captured(result.events)] == ["r1c4", "r3c0"]
+
+
+@pytest.mark.parametrize(
+    ("later", "status", "places"),
+    [
+        ((act("r0c0"),), "completed", ["r0c0"]),
+        ((visits("r1c4", "r3c0"),), "completed", ["r1c4", "r3c0"]),
+        ((act_here(), act("r0c0")), "faulted", []),
+        ((Wait(id="", seconds=5.0), act("r0c0")), "faulted", []),
+        ((act("r0c0"), act_here()), "completed", ["r0c0", "r0c0"]),
+    ],
+)
+def test_a_single_step_is_left_out_if_what_follows_is_done_elsewhere(
+    later: tuple[Node, ...], status: str, places: list[str]
+) -> None:
+    task = task_for(InOrder(id="", steps=(act("r1c2"), *later)))
+    result = Rig(world=World(faults=(NORTH, SOUTH))).fly(task)
+    assert (result.status, sorted(place for _, place in captured(result.events))) == (status, places), result.reason
+    goals = judge(task, result.events)
+    assert goals[0].outcome == "failure"
+    if status == "completed":
+        assert [o.outcome for o in goals[1:]] == ["success"] * (len(goals) - 1)
 
 
 def test_a_taken_stand_that_comes_free_is_visited_last() -> None:

@@ -1,4 +1,4 @@
-"""Whether a drive comes nearer to its goal, by the feedback of navigation.
+"""Progress of a drive towards its goal, by the feedback of navigation.
 
 Nav2 may recover and drive on for ever before an obstacle at its goal: every recovery is a success, after which it
 begins anew. It reports the length of the way that is left, and counts its recoveries.
