@@ -195,6 +195,31 @@ def test_an_inactive_node_is_named_before_a_mission_begins_and_by_the_check() ->
     assert {e.what for e in report.endpoints if "server" in e.binding.part} == {"active"}
 
 
+AFTER = st.floats(0.0, 45.0)
+NAV2 = st.one_of(
+    st.builds(GoalClicked, at=st.sampled_from(["r0c0", "r3c4", "r2c2"]).map(lambda t: TreeRef(id=t)), after_m=AFTER),
+    st.builds(GoalUnexplained, after_m=AFTER, times=st.integers(1, 3)),
+    st.builds(NavigatorDies, after_m=AFTER, down_s=st.none() | st.floats(0.0, 20.0), inactive_s=st.none() | AFTER),
+)
+
+
+@settings(max_examples=examples(8, thorough=80), deadline=None)
+@given(st.lists(NAV2, min_size=1, max_size=3), st.sampled_from(["humble", "jazzy"]), st.integers(0, 2))
+def test_whatever_nav2_does_the_mission_ends_and_the_robot_stands(faults: list[Any], distro: Any, retries: int) -> None:
+    waits = {"navigation_wait_s": 20.0, "taken_wait_s": 30.0}
+    rig = Nav2Rig(tuple(faults), replace(profile(distro=distro, patience=waits), retries=retries))
+    result = rig.fly(visits("r1c1", "r3c3"))
+    assert result.status in ("completed", "faulted")
+    assert result.status == "completed" or result.reason
+    assert len(captured(result.events)) == 2 or result.status == "faulted"
+    rig.clock.advance(60.0)  # a goal of another client may be driven to its end
+    stood = rig.simulated.platform.position
+    rig.clock.advance(30.0)
+    assert rig.simulated.platform.position == stood
+    # Where failures have codes, none of this looks like an obstacle.
+    assert distro == "humble" or not of_type(result.events, Obstructed)
+
+
 # --- places that are taken -------------------------------------------------------------------------------------------
 
 
