@@ -218,6 +218,7 @@ def test_crossings_are_told_in_both_languages():
             ("charge_percent", "reserve", "go_on", False),
             ("charge_percent", "way_home", "return", False),
             ("charge_percent", "out_of_reach", "stop", False),
+            ("charge_percent", "costly_drive", "return", False),
             ("distance_m", "way_home", "return", False),
             ("duration_s", "way_home", "return", False),
             ("energy_percent", "way_home", "return", False),
@@ -237,5 +238,5 @@ def test_crossings_are_told_in_both_languages():
 
 def test_the_page_names_every_level():
     page = (Path(__file__).resolve().parents[2] / "docs" / "formats.md").read_text()
-    for level in ("warn", "return", "stop", "reserve", "limit", "way_home", "out_of_reach"):
+    for level in ("warn", "return", "stop", "reserve", "limit", "way_home", "out_of_reach", "costly_drive"):
         assert f"`{level}`" in page

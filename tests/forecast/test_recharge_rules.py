@@ -65,6 +65,24 @@ def test_certain_legs_need_no_more_than_the_reserve() -> None:
     assert float(rules.needed(sums(200.0), 3.0)) == pytest.approx(rules.reserve_percent + 3.0 + 200 * rules.per_metre)
 
 
+@given(st.floats(11.0, 100.0), st.floats(0.0, 600.0), st.lists(st.floats(0.0, 500.0), min_size=1, max_size=5))
+def test_a_risky_way_to_the_charger_is_not_taken_where_finishing_is_safer(
+    charge: float, away_m: float, legs: list[float]
+) -> None:
+    rules = rules_of()
+    there = float(rules.stop_chance(charge, sums(away_m)))
+    rest = float(rules.stop_chance(charge, sums(*legs), 2.0))
+    worse = bool(rules.is_way_to_charger_worse(charge, away_m, sums(*legs), 2.0))
+    assert worse == (there > STOP_CHANCE and rest < there)
+
+
+def test_near_the_charger_the_robot_charges_whatever_is_left() -> None:
+    rules = rules_of()
+    assert not rules.is_way_to_charger_worse(60.0, 20.0, sums(5.0), 0.0)
+    assert rules.is_way_to_charger_worse(45.0, 250.0, sums(5.0, 30.0), 1.0)
+    assert not rules.is_way_to_charger_worse(45.0, 250.0, sums(250.0, 30.0), 1.0)
+
+
 def test_where_no_way_leads_nothing_suffices() -> None:
     assert np.isinf(rules_of().needed(sums(10.0), np.inf))
 

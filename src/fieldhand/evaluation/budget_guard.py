@@ -153,6 +153,9 @@ class BudgetGuard:
         self._budget.drain.learn(state.spent)
         if self._is_granted(state, visit.place):
             low = self._recharge.decide(state, visit, None, permitted=True)
+            if low.decision == "charge" and (ahead := self._ahead.of(state, visit, still_to_come)) is not None:
+                # The end may be nearer than the charger.
+                low = self._recharge.decide(state, visit, ahead.way, permitted=True)
             if low.decision == "charge":
                 return Verdict(go=False, reason=self._and_the_battery(low.why), charge_to=low.charge_to)
             return Verdict(go=True)

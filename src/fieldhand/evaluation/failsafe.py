@@ -15,6 +15,7 @@ from fieldhand.evaluation.battery_drain import BatteryDrain
 from fieldhand.forecast.failsafe_state import FailsafeForecast, FailsafeState
 from fieldhand.forecast.resource_limits import reserve_percent, resource_limits
 from fieldhand.forecast.route_cost import mean_metres, overrun_chances, route_cost
+from fieldhand.forecast.turning_back import TurningRule
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.frames import Task
 
@@ -79,7 +80,7 @@ class BudgetFailsafe:
         out_of_reach = self._homeward(now, now.haven_m)
         risky[-1] |= out_of_reach.alarm == "out_of_reach" and needs_home[-1] < needs_on[-1]
         if not risky.any():
-            return FailsafeForecast(drain=self._drain.factor)
+            return self._costly(now)
         worst = int(np.where(risky, chances, -1.0).argmax())
         resource = resources[worst]
         return FailsafeForecast(
@@ -88,6 +89,26 @@ class BudgetFailsafe:
             left=resource.limit - resource.used(now.spent),
             needed=float(needs_home[worst]) * resource.per_metre,
             chance_short=float(chances[worst]),
+            drain=self._drain.factor,
+        )
+
+    def _costly(self, now: FailsafeState) -> FailsafeForecast:
+        """Raise the alarm if the drive has become so costly that the charger might be out of reach from its end."""
+        robot, rule = self._drain.robot, TurningRule(self._drain.robot)
+        none = FailsafeForecast(drain=self._drain.factor)
+        if now.turns is None or now.on_m <= 0.0:
+            return none
+        per_metre = resource_limits(self._task.constraints, robot)[-1].per_metre
+        left = now.charge_percent - self._stop_percent - robot.percent(0.0, now.work.seconds)
+        left_m = left / per_metre
+        if not rule.turns(left_m, now.driven_m, now.done_m, now.on_m, now.charger_after_m, now.charger_m, now.turns):
+            return none
+        then_m = left_m - float(rule.pace(now.driven_m, now.done_m)) * now.on_m
+        return FailsafeForecast(
+            alarm="turn_back",
+            left=then_m * per_metre,
+            needed=now.charger_after_m * per_metre,
+            chance_short=float(rule.stop_chance(then_m, now.charger_after_m)),
             drain=self._drain.factor,
         )
 

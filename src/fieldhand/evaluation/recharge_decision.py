@@ -57,7 +57,7 @@ class RechargeDecider:
         needed = self._needed(rules, here, visit, after, charged=permitted)
         if permitted and charge >= needed:
             return RechargeDecision(decision="go")
-        if not rules.must_charge(charge, needed, ends=visit.ends):
+        if not rules.must_charge(charge, needed, ends=visit.ends) or self._is_safer_to_finish(state, visit, after):
             return RechargeDecision(decision="go")
         first = self._needed(rules, rules.charger, visit, after, charged=True)
         able = state.charges < rules.at_most and bool(rules.gains(charge)) and first <= rules.until_percent
@@ -107,6 +107,18 @@ class RechargeDecider:
         """Return True if a visit is possible with a charged battery."""
         rules = self._budget.recharge
         return rules is None or self._needed(rules, rules.charger, visit, None, charged=True) <= rules.until_percent
+
+    def _is_safer_to_finish(self, state: MissionState, visit: Visit, after: RouteCost | None) -> bool:
+        """Return True if the way to the charger is likelier to stop the robot than everything that is left."""
+        rules, here = self._budget.recharge, state.context.here
+        if rules is None or after is None:
+            return False
+        away, there = self._metres(here, rules.charger), self._metres(here, visit.place)
+        if not math.isfinite(away + there):
+            return False
+        whole = route_cost([there], self._budget.slower(visit, there, here)) + after
+        work = rules.robot.percent(0.0, whole.work.seconds, whole.work.joules) + whole.work.metres * rules.per_metre
+        return bool(rules.is_way_to_charger_worse(state.charge_percent, away, whole.sums, work))
 
     def _needed(
         self, rules: RechargeRules, here: Place, visit: Visit, after: RouteCost | None, *, charged: bool = False

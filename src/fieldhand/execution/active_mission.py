@@ -165,6 +165,7 @@ class ActiveMission:
         self._charged_percent = self._docked_s = 0.0
         self._docked_since, self._docked_at = 0.0, 0.0
         self._done = self._done_before_charge = 0
+        self._turns, self._done_before_turn = 0, -1
         self._look_again_s = LOOK_AGAIN_S
         self._battery = BatteryMeter(
             self._full,
@@ -486,6 +487,15 @@ class ActiveMission:
     def charged_in_vain(self) -> bool:
         """True if nothing of the plan was done since it was last interrupted to charge."""
         return self.charges > 0 and self._done == self._done_before_charge
+
+    @property
+    def turns(self) -> int:
+        """Number of drives broken off because they cost too much, since anything of the plan was done."""
+        return self._turns if self._done == self._done_before_turn else 0
+
+    def turned_back(self) -> None:
+        """Record that a drive was broken off because it cost too much."""
+        self._turns, self._done_before_turn = self.turns + 1, self._done
 
     def recharged(self) -> None:
         """Record that the plan was interrupted to charge."""

@@ -16,12 +16,14 @@ from shapely.geometry import LineString, Point
 
 from fieldhand.errors import DriveFault
 from fieldhand.execution.active_mission import ActiveMission
+from fieldhand.execution.leg_pace import LegPace
 from fieldhand.execution.limit_levels import Consequence, LimitLevel, fastest_drain, levels_of
 from fieldhand.execution.open_goals import OpenCapture, OpenDrive, OpenManeuver, OpenStretch
 from fieldhand.forecast.failsafe_state import FailsafeForecast, FailsafeState
 from fieldhand.forecast.mission_state import Spent, Work
 from fieldhand.forecast.recharge_rules import charger_distance
-from fieldhand.forecast.resource_limits import slower_s_per_m, speed_of
+from fieldhand.forecast.resource_limits import reserve_percent, resource_limits, slower_s_per_m, speed_of
+from fieldhand.forecast.turning_back import LOOK_M, TurningRule
 from fieldhand.forecast.working import use_of
 from fieldhand.site.model import Place, Site
 from fieldhand.site.stopping import safe_stop
@@ -81,6 +83,10 @@ class LimitMonitor:
         self._fastest = fastest_drain(mission.robot)
         #: True if the battery raised the last alarm, not a budget.
         self._by_charge = False
+        #: True if it was raised because the drive cost too much.
+        self._turned_back = False
+        self._pace = LegPace(mission)
+        self._turning = TurningRule(mission.robot)
 
     def turn(self, phase: Phase) -> None:
         """Enter a phase of the mission; the previous alarm is settled."""
@@ -96,6 +102,8 @@ class LimitMonitor:
             return False
         mission.recharge_due, self.alarm = self.why, "none"
         self._foreseen.discard(self.phase)
+        if self._turned_back:
+            mission.turned_back()
         return True
 
     def look(self) -> None:
@@ -151,7 +159,7 @@ class LimitMonitor:
             # While driving out, the way home grows as fast as the remaining resources shrink.
             halved = self.phase == "plan" and level.level in ("reserve", "limit")
             found.append(room / pace[level.quantity] / (2.0 if halved else 1.0))
-        return max(SOONEST_S, min(found))
+        return max(SOONEST_S, min([*found, self._pace_look_in(charge)]))
 
     def refuge(self, home: Place) -> Place | None:
         """Return where the robot can stop safely: on the way home within range of its charge, else at a near marker.
@@ -237,6 +245,7 @@ class LimitMonitor:
             self.alarm = "shelter" if level == "out_of_reach" else "return" if then == "end" else then
             self.why, self.exit = say_crossing(event), self._exit_after(quantity)
             self._by_charge = quantity == "charge_percent"
+            self._turned_back = level == "costly_drive"
 
     # --- the way home --------------------------------------------------------------------------------------------
 
@@ -251,6 +260,8 @@ class LimitMonitor:
             return
         if self.phase == "exit" and not isinstance(doing, OpenDrive):
             return
+        if self._watches_pace:
+            self._pace.look()
         ways, haven = self._ways(doing), None
         if self.phase == "plan" and self._mission.may_recharge:
             haven = self._ways(doing, to_charger=True)
@@ -260,7 +271,9 @@ class LimitMonitor:
         self._foreseen.add(self.phase)
         self._reach_m = found.reach_m
         quantity: Crossable = "charge_percent" if found.limit == "reserve" else found.limit
-        if found.alarm == "turn_home":
+        if found.alarm == "turn_back":
+            self._emit_crossing(quantity, "costly_drive", found.left, found.needed, "return")
+        elif found.alarm == "turn_home":
             self._emit_crossing(quantity, "way_home", found.left, found.needed, "return")
         else:
             self._emit_crossing(quantity, "out_of_reach", found.left, found.needed, "stop")
@@ -290,8 +303,34 @@ class LimitMonitor:
                 haven_after_m=min(after_m, charger_after_m),
                 haven_m=min(home_m, charger_m),
                 returning=homeward if returning is None else returning,
+                driven_m=self._pace.driven_m,
+                done_m=self._pace.done_m,
+                charger_after_m=charger_after_m,
+                charger_m=charger_m,
+                turns=self._mission.turns if haven is not None and self._watches_pace else None,
             )
         )
+
+    @property
+    def _watches_pace(self) -> bool:
+        """True during a drive that may be broken off for the charger if it costs too much."""
+        mission, doing = self._mission, self._mission.doing
+        drives = isinstance(doing, OpenDrive) and not isinstance(doing, OpenStretch) and len(mission.driven) > 1
+        return drives and self.phase == "plan" and mission.may_recharge
+
+    def _pace_look_in(self, charge: float) -> float:
+        """Return the seconds until the pace of the current drive is looked at; infinite if no pace matters."""
+        if not self._watches_pace:
+            return math.inf
+        mission, doing = self._mission, self._mission.doing
+        self._pace.look()
+        on_m, after_m, _ = self._ways(doing, to_charger=True)
+        constraints, robot = mission.task.constraints, mission.robot
+        left = charge - robot.energy.levels(reserve_percent(constraints, robot)).stop
+        per_metre = resource_limits(constraints, robot)[-1].per_metre
+        if not self._turning.can_turn(left / per_metre, on_m, after_m):
+            return math.inf
+        return LOOK_M / speed_of(constraints, robot)
 
     def _ways(self, doing: OpenDrive | OpenCapture | None, *, to_charger: bool = False) -> tuple[float, float, float]:
         """Return metres left of the current drive, from its end home (or to the charger), and at most from here."""

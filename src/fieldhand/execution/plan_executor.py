@@ -131,7 +131,7 @@ class PlanExecutor:
             PlanOver: It has failed.
         """
         mission, again = self.mission, self.mission.charged_in_vain
-        in_vain = again and (bool(mission.recharge_due) or self._charged_again)
+        in_vain = again and not mission.turns and (bool(mission.recharge_due) or self._charged_again)
         self._charged_again = again
         try:
             yield from charge_and_return(mission, why, until_percent)
@@ -264,7 +264,8 @@ class PlanExecutor:
         mission = self.mission
         if not mission.may_recharge or mission.charged_in_vain:
             return
-        verdict = mission.guard.admit(mission.state(), mandatory_visit(mission, mission.here, node))
+        visit = mandatory_visit(mission, mission.here, node)
+        verdict = mission.guard.admit(mission.state(), visit, mandatory_visits_left(mission))
         if verdict.charge_to:
             yield from self._charge(verdict.reason, verdict.charge_to)
             yield from drive(mission, "", mission.here)

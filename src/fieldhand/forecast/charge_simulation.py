@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,6 +20,7 @@ from fieldhand.forecast.mission_state import Work
 from fieldhand.forecast.recharge_rules import RechargeRules, charger_distance
 from fieldhand.forecast.sampled_costs import MissionSamples, SampledVisits
 from fieldhand.forecast.service import work_of
+from fieldhand.forecast.turning_back import turn_back
 from fieldhand.forecast.walk_steps import WalkStep, work_in
 from fieldhand.site.model import Place
 from fieldhand.task.frames import Task
@@ -186,8 +188,11 @@ class _Ahead:
         self, first_m: Floats, number: int | slice = slice(None), *, charged: bool = False, ends: ArrayLike = False
     ) -> Floats:
         """Return the charge that suffices for everything that is left."""
-        sums = [first_m**n + self.later[n - 1, number] for n in (1, 2, 3)]
-        return self.rules.needed(sums, self.work[number], charged=charged, ends=ends)
+        return self.rules.needed(self.whole(first_m, number), self.work[number], charged=charged, ends=ends)
+
+    def whole(self, first_m: Floats, number: int | slice = slice(None)) -> list[Floats]:
+        """Return the sums of the legs that are left, where the first one has this length."""
+        return [first_m**n + self.later[n - 1, number] for n in (1, 2, 3)]
 
 
 def _ahead(some: Sequence[GuardedStep], rules: RechargeRules, *, ends: bool) -> _Ahead:
@@ -271,17 +276,38 @@ def charged_missions(
             enough = ahead.suffices(legs_m, number) if after_visits else float(needed.here[number])
             ends = stretch.step is not None and stretch.step.kind == "exit"
             must = rules.must_charge(missions.level, enough, ends=ends)
+            if must.any() and np.isfinite(ahead.work[number]):
+                whole = ahead.whole(legs_m, number)
+                must &= ~rules.is_way_to_charger_worse(missions.level, missions.away_m, whole, ahead.work[number])
             goes = _charge_first(missions, rules, samples, number, must, needed)
         costs = samples.leg(number)
         way = leaving.preview.last if leaving is not None and after_visits else stretch.leg_m * costs
         back_m = stretch.from_charger_m if goes.any() else 0.0
         leaving = None if stretch.leg_m else leaving
-        missions.drive(np.where(goes, back_m * costs, way))
+        way = np.where(goes, back_m * costs, way)
+        if stretch.step is not None and stretch.step.kind == "drive" and not after_visits:
+            way = turn_back(
+                missions,
+                rules,
+                np.arange(samples.draws),
+                leg_m=np.where(goes, back_m, stretch.leg_m),
+                costs=costs,
+                begin_m=np.where(goes, 0.0, missions.away_m),
+                from_charger_m=stretch.from_charger_m,
+                after_m=stretch.to_charger_m,
+                draw=partial(_leg_of, samples, number),
+            )
+        missions.drive(way)
         missions.act(stretch.work)
         if stretch.work.metres:
             missions.drive(stretch.work.metres)
         missions.away_m = np.full(samples.draws, stretch.from_charger_m)
     return missions
+
+
+def _leg_of(samples: MissionSamples, number: int, some: NDArray[np.int64], which: int) -> Floats:
+    """Return the cost of a further leg of 1 m between a leg of the walk and the next."""
+    return samples.leg(number, detour=2 + which)[some]
 
 
 def _charge_first(
@@ -298,7 +324,7 @@ def _charge_first(
     goes: NDArray[np.bool_] = must & able & np.isfinite(missions.away_m)
     if goes.any():
         some = np.flatnonzero(goes)
-        missions.drive((missions.away_m * samples.leg(number, detour=True))[some], some)
+        missions.drive((missions.away_m * samples.leg(number, detour=1))[some], some)
         missions.ordered[some] += 1.0
         missions.dock(some, rules.target(float(needed.rest[number]), missions.level[some]))
     return goes

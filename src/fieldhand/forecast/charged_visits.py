@@ -22,6 +22,7 @@ from fieldhand.forecast.recharge_rules import ANY_NUMBER, RechargeRules
 from fieldhand.forecast.remaining_work import RemainingWork
 from fieldhand.forecast.resource_limits import ResourceLimit
 from fieldhand.forecast.route_cost import cost_model
+from fieldhand.forecast.turning_back import turn_back
 from fieldhand.site.model import Place
 
 if TYPE_CHECKING:
@@ -87,6 +88,9 @@ class ChargedVisits:
         draws = len(missions.level)
         self._at: Ints = np.zeros(draws, dtype=np.int64)
         self._dry: Flags = np.zeros(draws, dtype=bool)
+        # The drive that each mission is about to make: its length, and from its begin to the charger.
+        self._leg_m, self._begin_m = np.zeros(draws), np.zeros(draws)
+        self._rng = np.random.default_rng(0)
         self._spots: dict[int, _Spot] = {}
         self._first: dict[int, tuple[float, float]] = {}
 
@@ -149,16 +153,34 @@ class ChargedVisits:
             missions.ordered[going] += 1.0
             missions.dock(going, rules.target(math.inf, missions.level[going]))
             self._at[going] = _CHARGER
+        self._rng = rng
+        self._leg_m[some] = np.where(charges, begin_m, legs)
+        self._begin_m[some] = np.where(charges, 0.0, away)
         makes = (first <= rules.until_percent) & ~(must & self._dry[some])
         waits = charges & (self.policy is not None)
         return Departures(makes=makes & ~waits, waits=waits, legs=np.where(charges, begin_m, legs))
 
     def arrive(self, some: Ints, stop: int, costs: Floats) -> None:
         """Drive to a stop at these costs in metres, and make the visit."""
-        visit = self._visits[stop - 1]
+        visit, leg_m = self._visits[stop - 1], self._leg_m[some]
+        costs = turn_back(
+            self.missions,
+            self._rules,
+            some,
+            leg_m=leg_m,
+            costs=np.divide(costs, leg_m, out=np.ones_like(costs), where=leg_m > 0.0),
+            begin_m=self._begin_m[some],
+            from_charger_m=self._from_charger(stop)[0],
+            after_m=self._spot(stop).away_m,
+            draw=self._draw,
+            slower_s_per_m=self._slower,
+        )
         self.missions.drive(costs + visit.inside_m, some, self._slower)
         self.missions.act(visit.work, some)
         self._at[some] = stop
+
+    def _draw(self, some: Ints, _number: int) -> Floats:
+        return cost_model(self._rules.robot).draw(self._rng, len(some))
 
     def ended(self) -> ChargingMissions:
         """Return the missions after their visits, to go on from there independently."""

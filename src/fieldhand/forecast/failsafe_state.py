@@ -9,8 +9,9 @@ from fieldhand.forecast.mission_state import Spent, Work
 from fieldhand.forecast.resource_limits import ResourceKind
 
 #: ``turn_home``: going on would more likely than not exceed a limit, and turning round is safer. ``out_of_reach``: the
-#: charge above the stop level does not suffice for the way home.
-FailsafeAlarm = Literal["none", "turn_home", "out_of_reach"]
+#: charge above the stop level does not suffice for the way home. ``turn_back``: the current drive costs far more than
+#: expected, and at its end the charge might not suffice for the way to the charger.
+FailsafeAlarm = Literal["none", "turn_home", "turn_back", "out_of_reach"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,6 +27,10 @@ class FailsafeState:
         home_m: Upper bound of the metres home from here.
         haven_after_m, haven_m: As ``after_m`` and ``home_m``, to the charger where it is nearer and may be used.
         returning: True if the robot is already on its way home.
+        driven_m, done_m: Metres driven on the current drive, and metres of its way that are done.
+        charger_after_m, charger_m: Metres to the charger from the end of the drive, and from here.
+        turns: Number of drives just broken off because they cost too much; None if the robot does not turn to the
+            charger for that.
     """
 
     spent: Spent
@@ -37,6 +42,11 @@ class FailsafeState:
     haven_after_m: float
     haven_m: float
     returning: bool
+    driven_m: float = 0.0
+    done_m: float = 0.0
+    charger_after_m: float = 0.0
+    charger_m: float = 0.0
+    turns: int | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,8 +56,8 @@ class FailsafeForecast:
     Attributes:
         limit: The limit that caused the alarm.
         left: Amount left of that limit in its unit; for ``reserve`` the charge above the reserve, for ``out_of_reach``
-            the charge above the stop level.
-        needed: Mean amount of that limit needed for the way home.
+            the charge above the stop level; for ``turn_back`` the latter at the end of the drive.
+        needed: Mean amount of that limit needed for the way home, for ``turn_back`` from the end of the drive.
         chance_short: Probability of exceeding it by going on.
         reach_m: Mean range in metres of the charge above the stop level.
         drain: Battery drain as a multiple of its model.

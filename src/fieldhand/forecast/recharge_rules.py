@@ -24,7 +24,7 @@ from fieldhand.errors import DriveFault
 from fieldhand.forecast.resource_limits import ResourceLimit, reserve_percent, resource_limits, speed_of
 from fieldhand.forecast.route_cost import RouteCost, cost_model
 from fieldhand.forecast.visit_order import start_place
-from fieldhand.orienteering.overrun import quantile_table
+from fieldhand.orienteering.overrun import overrun_probability, quantile_table
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.frames import Constraints, Task
@@ -139,6 +139,34 @@ class RechargeRules:
         surely = self.stop_percent + self.longest(sums, STOP_CHANCE) * self.per_metre + work
         most = found + STOP_SHARE * np.maximum(0.0, self.until_percent - found)
         return np.where(np.asarray(ends), found, np.maximum(found, np.minimum(surely, most)))
+
+    def stop_chance(
+        self, charge_percent: ArrayLike, sums: Sequence[ArrayLike], work_percent: ArrayLike = 0.0
+    ) -> Floats:
+        """Return the probability that a route takes the battery from a charge to the stop level, elementwise.
+
+        Args:
+            charge_percent: Charge at its begin.
+            sums, work_percent: As in :meth:`needed`.
+        """
+        first, squares, cubes = (np.asarray(s, dtype=np.float64) for s in sums)
+        second, third = cost_model(self.robot).cumulants()
+        left = (np.asarray(charge_percent) - self.stop_percent - np.asarray(work_percent)) / self.per_metre
+        return overrun_probability(first, second * squares, third * cubes, left)
+
+    def is_way_to_charger_worse(
+        self, charge_percent: ArrayLike, away_m: ArrayLike, sums: Sequence[ArrayLike], work_percent: ArrayLike
+    ) -> NDArray[np.bool_]:
+        """Return True where the way to the charger is likelier to stop the robot than everything that is left.
+
+        Args:
+            charge_percent: Charge now.
+            away_m: Metres to the charger.
+            sums, work_percent: Everything that is left, up to the end, as in :meth:`needed`.
+        """
+        away = np.asarray(away_m, dtype=np.float64)
+        there = self.stop_chance(charge_percent, [away**n for n in (1, 2, 3)])
+        return np.asarray((there > STOP_CHANCE) & (self.stop_chance(charge_percent, sums, work_percent) < there))
 
     def longest(self, sums: Sequence[ArrayLike], chance: float) -> Floats:
         """Return the metres that the cost of a route exceeds with a given probability, elementwise.

@@ -144,8 +144,8 @@ class MissionSamples:
         """Return the number of missions."""
         return self._leg_costs.draws
 
-    def leg(self, number: int, *, detour: bool = False) -> Floats:
-        """Return the cost of a leg of 1 m for each mission, by its number on the walk; another one for a detour."""
+    def leg(self, number: int, *, detour: int = 0) -> Floats:
+        """Return the cost of a leg of 1 m for each mission, by its number on the walk; others for its detours."""
         rng = np.random.default_rng([self.seed, 1 + detour, number])
         return self._leg_costs.costs.draw(rng, self.draws)
 

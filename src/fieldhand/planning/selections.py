@@ -458,6 +458,11 @@ def is_by_attribute(selector: s.Selector) -> bool:
     return any(isinstance(part, s.Where) for part in selector.walk())
 
 
+def is_by_value(selector: s.Selector) -> bool:
+    """Return True for trees whose attribute has a value other than a name ("with vigor below 0.4", "with mildew")."""
+    return isinstance(selector, s.Where) and not isinstance(selector.value, str)
+
+
 def picks_from_all(selector: s.Selector) -> bool:
     """Return True if a number of trees is chosen from all trees of the site ("the oldest tree")."""
     return isinstance(selector, Counted) and selector.of == s.Trees()

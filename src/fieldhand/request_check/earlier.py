@@ -11,6 +11,7 @@ from collections.abc import Iterator
 
 from fieldhand.places import selectors as s
 from fieldhand.places.earlier.period import EVER, Period
+from fieldhand.places.filters.attribute_dates import is_date
 from fieldhand.places.selector import Selector
 from fieldhand.request_check import words as w
 from fieldhand.robot.model import RobotProfile
@@ -53,8 +54,15 @@ def selected_by_records(task: Task) -> Iterator[Selector]:
 
 
 def periods_of(task: Task) -> frozenset[Period]:
-    """Return the periods of earlier missions that a plan holds."""
-    return frozenset(getattr(part, "period", EVER) for part in selected_by_records(task)) - {EVER}
+    """Return the periods of earlier missions, and the days of planting, that a plan holds."""
+    return (frozenset(getattr(part, "period", EVER) for part in selected_by_records(task)) | _days_of(task)) - {EVER}
+
+
+def _days_of(task: Task) -> frozenset[Period]:
+    """Return the days with which attributes of plants are compared ("sown before April")."""
+    selectors = (node.selector for node in p.walk(task.composition.plan) if node.selector is not None)
+    values = (str(getattr(part, "value", "")) for one in selectors for part in one.walk())
+    return frozenset(Period(first_day=value, last_day=value) for value in values if is_date(value))
 
 
 def selects_by_work(task: Task) -> bool:

@@ -58,6 +58,8 @@ def _number(tokens: Sequence[Token], start: int) -> StatedNumber | None:
             return StatedNumber(value=value + rank[0], start=start, end=rank[1], ordinal=True)
     elif text == "half" and _is_of_unit(tokens, start + 1):
         return StatedNumber(value=0.5, start=start, end=start + 2)
+    elif start > 0 and tokens[start - 1].text == "within" and _is_of_unit(tokens, start):
+        return StatedNumber(value=1.0, start=start, end=start + 1)  # "known to within a degree"
     else:
         return None
     half = next((len(said) for said in _AND_A_HALF if [t.text for t in tokens[end : end + len(said)]] == said), 0)
@@ -69,9 +71,10 @@ def _number(tokens: Sequence[Token], start: int) -> StatedNumber | None:
 
 
 def _is_of_unit(tokens: Sequence[Token], at: int) -> bool:
-    """Return True for "a metre" and "an hour" behind "half"."""
+    """Return True for "a metre", "an hour" and "a degree" behind "half"."""
     texts = [token.text for token in tokens[at : at + 2]]
-    return len(texts) == 2 and texts[0] in ("a", "an") and texts[1] in (w.LENGTHS | w.TIMES)
+    units = w.LENGTHS.keys() | w.TIMES.keys() | w.DEGREES | w.PERCENT
+    return len(texts) == 2 and texts[0] in ("a", "an") and texts[1] in units
 
 
 def _spelt(tokens: Sequence[Token], start: int) -> tuple[float, int]:

@@ -8,6 +8,7 @@ from itertools import pairwise
 
 from fieldhand.language import Number, message
 from fieldhand.places import selectors as s
+from fieldhand.places.filters.attribute_dates import is_date
 from fieldhand.request_check import words as w
 from fieldhand.request_check.amounts import StatedAmount
 from fieldhand.request_check.mismatch import PlanMismatch
@@ -35,10 +36,17 @@ _SOME_ROWS = re.compile(
     r"\b(?:each|every|all|per|other|last|final|next|odd|even|alternate|middle|cent(?:er|re|ral)|\w+most|by)"
     r"(?: \w+){0,3} (?:rows?|beds?|bench(?:es)?)\b"
 )
+#: Pattern of rows by when they were planted.
+_PLANTED_FIRST = re.compile(
+    r"\b(?:first|last|earliest|latest|recently|lately)[ -]*(?:sown|seeded|drilled|(?:trans)?planted)\b"
+    r"|\b(?:sown|seeded|drilled|(?:trans)?planted) (?:the |most )?(?:first|last|earliest|latest|recently|lately)\b"
+)
 
 #: Pattern of the neighbours of several trees.
 _BESIDE_THEM = re.compile(
-    r"\b(?:either|each|both) sides? of (?:them|these|those|each)\b|\btheir (?:\w+ )?neighbou?rs\b"
+    r"\b(?:either|each|both) sides? of (?:it|them|these|those|each)\b|\b(?:their|its) (?:\w+ )?neighbou?rs\b"
+    r"|\bplants? (?:\w+ )?(?:next to|beside) (?:it|them|each)\b|\bneighbou?rs? of each\b"
+    r"|\b(?:trees?|vines?|ones?) (?:next to|beside|alongside) (?:it|them|each)\b"
 )
 #: Pattern of a half that is named by a place near it, or by words that no map explains.
 _SOME_HALF = re.compile(
@@ -47,8 +55,8 @@ _SOME_HALF = re.compile(
 )
 #: Words that continue a series of numbers: "5, 15, 25 and so on".
 _SERIES = re.compile(r"\b(?:and so (?:on|forth)|etc|like that)\b|\bevery \S+ (?:after|until|up|to)\b")
-#: Range of ids that differ by their number: "n300 through n310".
-_CODE_RANGE = re.compile(r"\b([a-z]+)(\d+)\s*(?:to|through|thru|a|al|hasta|-|\u2013)\s*\1(\d+)\b")
+#: Range of ids that differ by their number: "n300 through n310", "3-5 to 3-10".
+_CODE_RANGE = re.compile(r"(?<![\w-])([a-z]+|[a-z]*\d+-)(\d+)\s*(?:to|through|thru|a|al|hasta|-|\u2013)\s*\1(\d+)\b")
 
 
 def place_mismatches(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
@@ -86,7 +94,7 @@ def _trees(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
         spelt = "".join(ch for ch in tree.lower() if ch.isalnum())
         if _digits(tree) in numbers or tree.lower() in spoken or spelt in "".join(c for c in spoken if c.isalnum()):
             continue
-        if any(_is_between(tree.lower(), *ends) for ends in _CODE_RANGE.findall(facts.text)):
+        if any(_is_between(tree.lower(), *ends) for ends in _CODE_RANGE.findall(facts.text.replace(" - ", "-"))):
             continue
         if _SERIES.search(facts.text) and _is_in_series(_digits(tree), facts.text):
             continue
@@ -123,15 +131,18 @@ def _rows(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
     rows = [(node, x) for node, x in plan.having(s.Rows) if isinstance(x, s.Rows)]
     if not all(_NUMBER.fullmatch(name) for _, row in rows for name in (row.first, row.last)):
         return
+    counted_there = _counts_rows_of_area(facts, plan)
     for amount in facts.amounts:
-        if not _is_row(facts, amount) or _of_named_tree(facts, plan, amount):
+        if counted_there or not _is_row(facts, amount) or _of_named_tree(facts, plan, amount):
             continue
+        if any(True for _ in plan.having(s.Across)):
+            continue  # "the plant opposite in row 2"
         if not any(_holds(row, amount) for _, row in rows) and not _has_named_tree(amount, plan, site):
             what_differs = message(
                 "the request names row {row}, but the plan does not", row=Number(f"{amount.values[0]:g}")
             )
             yield PlanMismatch(kind="place", what=what_differs)
-    if facts.unknown or _SOME_ROWS.search(facts.text):
+    if facts.unknown or _SOME_ROWS.search(facts.text) or _PLANTED_FIRST.search(facts.text) or counted_there:
         return
     for node, row in rows:
         for name in dict.fromkeys((row.first, row.last)):
@@ -141,6 +152,12 @@ def _rows(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
                     what=message("the plan names row {name}, but the request does not", name=name),
                     node=node,
                 )
+
+
+def _counts_rows_of_area(facts: RequestFacts, plan: PlanFacts) -> bool:
+    """Return True for "the second row of the cool section", an area of the plan."""
+    names = (re.escape(_name_text(name)) for _, name in plan.areas)
+    return any(re.search(rf"\brow(?: \d+)? (?:in|of) (?:\w+ )?{name}\b", facts.text) for name in names)
 
 
 def _is_named_by_plants(name: str, facts: RequestFacts, site: Site) -> bool:
@@ -216,6 +233,8 @@ def _areas(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
     for name in sorted(facts.zones - held - rows - beds - in_names):
         if name in w.COMPASS and w.COMPASS[name] <= pointed:
             continue  # "from the north" or "the northernmost" does not mean a block called "North"
+        if _is_line_of_lanes(name, facts, plan):
+            continue
         if not any(name in other for other in held) and not _stands_in(plan, name, site):
             yield PlanMismatch(
                 kind="place", what=message("the request names '{name}', but the plan does not", name=name)
@@ -224,6 +243,9 @@ def _areas(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
         words = {t.text for t in _tokens(name)}
         words |= {f"{word}s" for word in words if name.rpartition(" ")[2].isdecimal()}  # "beds 2 to 6" name bed 3
         words |= {f"{word}s" for word in name.split()[:-1]}  # "the orchids" name the orchid patch
+        words |= {
+            f"{word}{end}" for word in name.split()[-1:] for end in ("s", "es")
+        }  # "the two sections" name the warm section
         if facts.unknown or words & facts.words or name.isdecimal() or facts.words & {"each", "every", "all", "both"}:
             continue
         yield PlanMismatch(
@@ -233,6 +255,14 @@ def _areas(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
         )
     if facts.words & _CHARGER and "charger" not in plan.markers and not facts.words & {"recharge", "recharging"}:
         yield PlanMismatch(kind="place", what=message("the request names the charger, but the plan does not"))
+
+
+def _is_line_of_lanes(name: str, facts: RequestFacts, plan: PlanFacts) -> bool:
+    """Return True if the lanes of a plan run in a direction, and the request names what they are parallel to."""
+    said = re.search(
+        rf"\b(?:parallel (?:to|with)|in line with|lined up with|line of) (?:\w+ )?{re.escape(name)}\b", facts.text
+    )
+    return said is not None and any(one.heading != "any" for one in plan.works)
 
 
 def _is_a_row_of(name: str, plan: PlanFacts) -> bool:
@@ -362,6 +392,8 @@ def _attributes(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[Pl
     held = {" ".join(t.text for t in _tokens(str(value))) for _, _, value in plan.values}
     for name in {x.first for _, x in plan.having(s.Rows) if isinstance(x, s.Rows) and x.first}:
         held |= _values_in_row(name, site, shared=True)
+    for tree in {tree for _, tree in plan.trees if tree in site.by_id}:
+        held |= {_name_text(str(value)) for value in site.by_id[tree].properties.values()}
     for word in facts.attributes:
         if not any(word in other or other in word for other in held):
             yield PlanMismatch(
@@ -375,7 +407,7 @@ def _attributes(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[Pl
         words = {t.text for t in _tokens(str(value))}
         if facts.words & _EACH_KIND and stems & {w.singular(t.text) for t in _tokens(attribute)}:
             continue  # the plan covers each variety
-        if isinstance(value, str) and not words & (facts.words | stems):
+        if isinstance(value, str) and not is_date(value) and not words & (facts.words | stems):
             yield PlanMismatch(
                 kind="attribute",
                 what=message(

@@ -53,11 +53,17 @@ def _certain(facts: RequestFacts, amount: StatedAmount) -> bool:
     """Return True if a number is certainly the threshold of a condition."""
     if amount.kind == "attribute":
         return bool(amount.compared) and not facts.negated(amount.index)
-    if not facts.conditional(amount.sentence):
+    if not facts.conditional(amount.sentence) or _is_pronoun(facts, amount):
         return False
     if amount.kind == "percent":
         return bool(amount.compared) and not {t.text for t in facts.tokens if t.sentence == amount.sentence} & BATTERY
     return amount.kind in ("temperature", "unit") or (amount.kind == "plain" and bool(amount.compared))
+
+
+def _is_pronoun(facts: RequestFacts, amount: StatedAmount) -> bool:
+    """Return True for the "one" of "above the cool one", before which an adjective stands."""
+    before = facts.tokens[max(0, amount.index - 2) : amount.index]
+    return facts.tokens[amount.index].text == "one" and len(before) == 2 and before[0].text in ("the", "that")
 
 
 def _calendar(plan: PlanFacts) -> bool:

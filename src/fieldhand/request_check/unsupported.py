@@ -27,7 +27,7 @@ _SCHEDULES = (
     rf"(?:once|twice|thrice|{_AMOUNT} times|times) (?:a|an|per|every|each) (?:{_UNITS})",
     r"daily|hourly|nightly|weekly|fortnightly|monthly|yearly|annually|overnight|regularly|periodically|from now on",
     rf"(?:tomorrow|tonight)(?: (?:{_PARTS}))?",
-    rf"(?:this|next) (?:(?:{_PARTS}|week|weekend|month|year|season|time)(?! to\b)|{_DAYS})",
+    rf"(?:this|next) (?:(?:{_PARTS}|week|weekend|month|year|season)(?! to\b)|{_DAYS})|next time(?! to\b)",
     rf"(?:in|during|until|till) the (?:{_PARTS})s?",
     rf"(?:at|by|before|after|until|till|around|from|since|towards?) (?:the )?(?:{_PARTS}|dark|daylight|daybreak)",
     rf"(?:on|every|next|each|only|until|by|from) (?:the )?(?:{_DAYS})s?|(?:{_DAYS})s",

@@ -15,7 +15,7 @@ from typing import ClassVar, Literal
 MissionStatus = Literal["completed", "returned", "exceeded", "faulted", "aborted"]
 
 Crossable = Literal["charge_percent", "distance_m", "duration_s", "energy_percent"]
-Crossing = Literal["warn", "return", "stop", "reserve", "limit", "way_home", "out_of_reach"]
+Crossing = Literal["warn", "return", "stop", "reserve", "limit", "way_home", "costly_drive", "out_of_reach"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -396,8 +396,10 @@ class LimitCrossed:
     ``level``: ``warn``, ``return`` and ``stop`` of the battery; ``reserve``: less charge is left than required;
     ``limit``: more of ``quantity`` was used than a budget allows; ``way_home``: ``value``, the rest of ``quantity`` (of
     the charge, above the reserve), barely suffices for the way home, which takes ``threshold`` on average;
-    ``out_of_reach``: the charge above the stop level does not suffice for it. For the other levels ``value`` is the
-    reading and ``threshold`` the level.
+    ``out_of_reach``: the charge above the stop level does not suffice for it; ``costly_drive``: the drive costs far
+    more than its length, so that at its end ``value`` would be left above the stop level, while the way from there to
+    the charger takes ``threshold`` on average. For the other levels ``value`` is the reading and ``threshold`` the
+    level.
 
     ``then``: response of the robot; ``end`` ends the mission where the robot is, as no way home was reserved.
     ``cleared``: the charge is well above the level again.

@@ -10,6 +10,8 @@ def say_crossing(event: LimitCrossed) -> str:
     """Return a sentence on the level or limit that was crossed and the robot's response."""
     what = _cleared(event) if event.cleared else _crossed(event)
     match event.then:
+        case "return" if event.level == "costly_drive":
+            return message("{what}: it turns to the charger", context="log", what=what)
         case "return":
             return message("{what}: it turns home", context="log", what=what)
         case "end":
@@ -38,6 +40,13 @@ def _crossed(event: LimitCrossed) -> str:
         case ("way_home", "energy_percent"):
             return message(
                 "{value} % of the battery may be used, and the way home takes {level} % on average", context="log", **at
+            )
+        case ("costly_drive", _):
+            return message(
+                "the drive takes far more than its length: {value} % charge above the stop level would be left at its "
+                "end, and the way to the charger takes {level} % on average",
+                context="log",
+                **at,
             )
         case ("out_of_reach", _):
             return message(

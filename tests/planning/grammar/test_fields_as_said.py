@@ -484,12 +484,6 @@ REFUSED = [
         "moisture at six random spots on the bank; if the average is over 45 percent, take six more",
         "'more'",
     ),
-    (
-        PASTURE,
-        AMIGA,
-        "what's the average nitrate on the bank and in the boggy corner? Four spots should be enough",
-        "this site records no plants: every tree",
-    ),
     (PASTURE, TRACTOR, "mow the daisies", "not understood: 'daisies'"),
     (
         GARDEN,

@@ -17,9 +17,8 @@ from fieldhand.site.model import Site
 DEMO, HUSKY = open_site("demo"), load_robot("husky")
 COMMAND = "Take a picture of tree 4"
 TOLD = {
-    f"Before I hang the frobnicators up, {COMMAND.lower()}.": "Before I hang the frobnicators up",
     f"{COMMAND} while the neighbours are at frobnication.": "while the neighbours are at frobnication",
-    f"Today is frobnication day. {COMMAND}.": "Today is frobnication day",
+    f"{COMMAND}. How far apart are the two frobnicators?": "How far apart are the two frobnicators",
     f"{COMMAND}; the frobnicators stay on the other half.": "the frobnicators stay on the other half",
     f"{COMMAND} once it has frobnicated.": "once it has frobnicated",
 }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from fieldhand.language import message, named
 from fieldhand.language.words import say_name, say_value
+from fieldhand.places.filters.attribute_dates import is_date
 from fieldhand.terms import Test, Value
 
 _ATTRIBUTE_UNITS = {
@@ -39,6 +40,8 @@ def say_whose(attribute: str, test: Test, value: Value) -> str:
         marked = value == (test == "eq")
         return message("marked as “{name}”", name=name) if marked else message("not marked as “{name}”", name=name)
     amount = _amount(value, unit)
+    if is_date(value) and test not in ("eq", "ne"):
+        return _whose_day(name, test, amount)
     match test:
         case "eq":
             return message("whose {name} is {amount}", name=name, amount=amount)
@@ -52,6 +55,19 @@ def say_whose(attribute: str, test: Test, value: Value) -> str:
             return message("whose {name} is above {amount}", name=name, amount=amount)
         case "ge":
             return message("whose {name} is at least {amount}", name=name, amount=amount)
+
+
+def _whose_day(name: str, test: Test, day: str) -> str:
+    """Return a comparison with a date as a clause."""
+    match test:
+        case "lt":
+            return message("whose {name} is before {day}", name=name, day=day)
+        case "le":
+            return message("whose {name} is {day} or earlier", name=name, day=day)
+        case "gt":
+            return message("whose {name} is after {day}", name=name, day=day)
+        case _:
+            return message("whose {name} is {day} or later", name=name, day=day)
 
 
 def say_of_tree(attribute: str, test: Test, value: Value) -> str:

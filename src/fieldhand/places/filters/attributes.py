@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldhand.language import counted
+from fieldhand.places.filters.attribute_dates import day_number
 from fieldhand.places.place_errors import (
     no_such_attribute,
     no_such_value,
@@ -47,15 +48,17 @@ class Column:
         numbers: Numeric value of each tree; NaN if the value is not a number.
         codes: Index of each tree's value in ``texts``; -1 if the tree lacks the attribute.
         texts: Distinct values as text in lower case; a single placeholder if all values are numbers.
+        days: Number of the day that each tree's value names as a date; NaN if it is no date.
     """
 
     numbers: NDArray[np.float64]
     codes: NDArray[np.intp]
     texts: tuple[str, ...]
+    days: NDArray[np.float64]
 
 
 def where(spots: PlaceGroup, selector: Where, notes: ResolutionNotes) -> PlaceGroup:
-    """Return the places whose attribute passes the test, as numbers if both are, else as text ignoring case."""
+    """Return the places whose attribute passes the test, as numbers or dates if both are, else as text."""
     column = column_of(spots.site, selector.attribute)
     mine = column_rows(column, spots)
     wanted = _number(selector.value)
@@ -71,6 +74,8 @@ def where(spots: PlaceGroup, selector: Where, notes: ResolutionNotes) -> PlaceGr
         passed |= as_text & (equal if selector.test == "eq" else ~equal)
         if selector.test == "eq" and not same and not (column.numbers == wanted).any():
             raise no_such_value(spots.site, selector)
+    elif not math.isnan(wanted_day := day_number(selector.value)) and not np.isnan(column.days).all():
+        passed |= COMPARISONS[selector.test](mine.days, wanted_day)
     elif math.isnan(wanted):
         raise not_comparable(selector)
     elif np.isnan(column.numbers).all():
@@ -102,11 +107,13 @@ def note_lacking(count: int, attribute: str, notes: ResolutionNotes) -> None:
 
 
 def with_number(spots: PlaceGroup, attribute: str) -> tuple[PlaceGroup, NDArray[np.float64]]:
-    """Return the places with a numeric value of the attribute, and the values."""
+    """Return the places with a value of the attribute that is a number, or a date if none is, and the values."""
     column = column_of(spots.site, attribute)
-    if np.isnan(column.numbers).all():
+    of_days = bool(np.isnan(column.numbers).all())
+    if of_days and np.isnan(column.days).all():
         raise not_a_number(attribute)
-    numbers = column_rows(column, spots).numbers
+    mine = column_rows(column, spots)
+    numbers = mine.days if of_days else mine.numbers
     known = ~np.isnan(numbers)
     return spots.keep(known), numbers[known]
 
@@ -118,6 +125,7 @@ def column_rows(column: Column, spots: PlaceGroup) -> Column:
         numbers=np.where(tree, column.numbers[spots.index * tree], np.nan),
         codes=np.where(tree, column.codes[spots.index * tree], -1),
         texts=column.texts,
+        days=np.where(tree, column.days[spots.index * tree], np.nan),
     )
 
 
@@ -142,16 +150,20 @@ def _column(site: Site, name: str) -> Column:
     values = [tree.properties.get(name) for tree in site.trees]
     if all(type(value) is float for value in values):  # fast path
         numbers = np.array(values, dtype=np.float64)
-        return Column(np.where(np.isfinite(numbers), numbers, np.nan), np.zeros(len(values), dtype=np.intp), ("\0",))
+        no_days = np.full(len(values), np.nan)
+        codes = np.zeros(len(values), dtype=np.intp)
+        return Column(np.where(np.isfinite(numbers), numbers, np.nan), codes, ("\0",), no_days)
     kinds = [(type(value), value) for value in values]  # 1.0 and True are equal keys but different values
     distinct = list(dict.fromkeys(kinds))
     texts: dict[str, int] = {}
     code = {kind: -1 if kind[1] is None else texts.setdefault(_text(kind[1]), len(texts)) for kind in distinct}
     number = {kind: math.nan if kind[1] is None else _number(kind[1]) for kind in distinct}
+    day = {kind: math.nan if kind[1] is None else day_number(kind[1]) for kind in distinct}
     return Column(
         np.fromiter(map(number.__getitem__, kinds), dtype=np.float64, count=len(kinds)),
         np.fromiter(map(code.__getitem__, kinds), dtype=np.intp, count=len(kinds)),
         tuple(texts),
+        np.fromiter(map(day.__getitem__, kinds), dtype=np.float64, count=len(kinds)),
     )
 
 

@@ -12,7 +12,7 @@ from fieldhand.errors import PlaceError
 from fieldhand.language import Number, counted, message
 from fieldhand.language.words import say_rounded
 from fieldhand.places.place_group import PlaceGroup
-from fieldhand.places.points.free_ground import MOST_POINTS, area_called, free_part, free_points
+from fieldhand.places.points.free_ground import MOST_POINTS, area_called, free_part, free_points, part_of_area
 from fieldhand.places.resolution_notes import ResolutionNotes
 from fieldhand.site.model import Site
 from fieldhand.site.rectangle import named_corners, smallest_rectangle
@@ -51,7 +51,7 @@ def points_on_grid(site: Site, selector: Grid, notes: ResolutionNotes) -> PlaceG
     Raises:
         PlaceError: There is no such zone, no space in it, or the spacing is not possible.
     """
-    area = area_called(site, selector.zone)
+    area = part_of_area(area_called(site, selector.zone), selector.part)
     free = free_part(site, area)
     origin, axes, step, shape = _frame(shapely.get_coordinates(area), selector)
     columns, rows = (np.arange(int(n)) + 0.5 for n in shape)

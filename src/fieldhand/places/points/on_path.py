@@ -18,7 +18,14 @@ from fieldhand.language import message
 from fieldhand.language.words import say_rounded
 from fieldhand.places.place_errors import too_few
 from fieldhand.places.place_group import PlaceGroup
-from fieldhand.places.points.free_ground import MOST_POINTS, area_called, free_part, free_points, segments
+from fieldhand.places.points.free_ground import (
+    MOST_POINTS,
+    area_called,
+    free_part,
+    free_points,
+    part_of_area,
+    segments,
+)
 from fieldhand.places.resolution_notes import ResolutionNotes
 from fieldhand.site.feature_kinds import phrase
 from fieldhand.site.model import Site
@@ -80,7 +87,7 @@ def points_on_path(site: Site, selector: Transect, notes: ResolutionNotes) -> Pl
     if selector.shape == "edge":
         path = _edge(site, selector.zone)
     else:
-        area = area_called(site, selector.zone)
+        area = part_of_area(area_called(site, selector.zone), selector.part)
         free = free_part(site, area)
         lines = _path(shapely.get_coordinates(area), selector)
         path = [piece for line in lines for piece in segments(line.intersection(free))]

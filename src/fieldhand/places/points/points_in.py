@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldhand.language import counted, message
-from fieldhand.language.words import CORNERS, SIDES, say_zone
+from fieldhand.places.areas.area_words import say_area, sides_of_part
 from fieldhand.places.count_range import ANY, CountRange, exactly
 from fieldhand.places.noun_phrase import NounPhrase, many, one
 from fieldhand.places.selector import Selector
@@ -41,11 +41,7 @@ class PointsIn(Selector):
         return over_zone(resolution.site, self, notes)
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
-        zone = say_zone(self.zone) if self.zone else message("the site")
-        if self.part in SIDES:
-            zone = message("the {northern} half of {zone}", northern=SIDES[self.part], zone=zone)
-        elif self.part in CORNERS:
-            zone = message("the {north_west} quarter of {zone}", north_west=CORNERS[self.part], zone=zone)
+        zone = say_area(self.zone, self.part)
         if self.random:
             points = counted("{count} point", "{count} points", self.count)
             text = message(
@@ -62,8 +58,7 @@ class PointsIn(Selector):
 
     @property
     def sides(self) -> tuple[Side, ...]:
-        sides: tuple[Side, ...] = ("north", "east", "south", "west")
-        return tuple(side for side in sides if side == self.part or (self.part in CORNERS and side[0] in self.part))
+        return sides_of_part(self.part)
 
     @property
     def size(self) -> CountRange:

@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING, Literal
 
 from fieldhand.language import counted, message
 from fieldhand.language.words import say_number, say_zone
+from fieldhand.places.areas.area_words import say_area, sides_of_part
 from fieldhand.places.count_range import ANY, CountRange, exactly
 from fieldhand.places.filters.in_block import InBlock
 from fieldhand.places.noun_phrase import NounPhrase, many, one
 from fieldhand.places.selector import FromGroup, Selector
 from fieldhand.places.sources.trees import Trees
+from fieldhand.terms import AreaPart, Side
 
 if TYPE_CHECKING:
     from fieldhand.places.place_group import PlaceGroup
@@ -28,15 +30,16 @@ PathShape = Literal["zigzag", "z", "x", "edge"]
 @dataclass(frozen=True, kw_only=True)
 class Transect(FromGroup):
     """``count`` trees of ``of`` nearest to equally spaced points, or to points ``apart_m`` metres apart, of a path
-    across it: a ``zigzag`` of ``legs`` (4 are a W, 1 is a diagonal), a ``z`` or an ``x``. With ``zone``, free points in
-    that zone; without trees, on the whole site. Along an ``edge``, always free points: inside the edge of the zone or
-    the site, outside that of a keep-out."""
+    across it: a ``zigzag`` of ``legs`` (4 are a W, 1 is a diagonal), a ``z`` or an ``x``. With ``zone`` (``part``),
+    free points there; without trees, on the whole site. Along an ``edge``, always free points: inside the edge,
+    outside that of a keep-out."""
 
     count: int = 0
     apart_m: float = 0.0
     shape: PathShape = "zigzag"
     legs: int = 4
     zone: str = ""
+    part: AreaPart = "all"
     of: Selector = Trees()
 
     reference_rule = "of"
@@ -49,7 +52,7 @@ class Transect(FromGroup):
     def resolve(self, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.points.on_path import points_on_path
 
-        if self.zone or self.shape == "edge" or not resolution.site.trees:
+        if self.on_ground or self.shape == "edge" or not resolution.site.trees:
             return points_on_path(resolution.site, self, notes)
         return super().resolve(resolution, notes)
 
@@ -68,13 +71,13 @@ class Transect(FromGroup):
         path, group = self._path, wording.phrase(self.of)
         if self.shape == "edge":
             return self._along_edge()
-        over = say_zone(self.zone) if self.zone else group.group()
+        over = say_area(self.zone, self.part) if self.on_ground else group.group()
         if self.apart_m:
             text = message(
                 "every {metres} m along {path} across {area}", metres=say_number(self.apart_m), path=path, area=over
             )
             return many(text)
-        if self.zone:
+        if self.on_ground:
             points = counted("{count} point", "{count} points", self.count)
             text = message("{points} along {path} across {area}", points=points, path=path, area=over)
         else:
@@ -92,12 +95,21 @@ class Transect(FromGroup):
         return one(text) if self.count == 1 else many(text)
 
     @property
+    def on_ground(self) -> bool:
+        """True if the points are named by their ground rather than by trees."""
+        return bool(self.zone) or self.part != "all"
+
+    @property
     def single(self) -> bool:
         return self.count == 1 and not self.apart_m
 
     @property
     def size(self) -> CountRange:
         return exactly(self.count) if self.count and not self.apart_m else ANY
+
+    @property
+    def sides(self) -> tuple[Side, ...]:
+        return sides_of_part(self.part)
 
     @property
     def keeps_order(self) -> bool:

@@ -103,7 +103,8 @@ def parameter_entries(robot: RobotProfile) -> Iterator[tuple[Phrase, NameEntry]]
     adjectives: dict[str, list[str]] = vocabulary()["adjectives_of"]
     for parameter in {one.name: one for action in robot.actions for one in action.parameters}.values():
         for choice in parameter.choices:
-            choices.setdefault(split(choice), []).append((parameter.name, choice))
+            for word in (choice, *vocabulary()["other_choices"].get(choice, ())):
+                choices.setdefault(split(word), []).append((parameter.name, choice))
         words = name_words(parameter.name)
         for phrase in (tuple(words), *((word,) for noun in words for word in adjectives.get(noun, ()))):
             names.setdefault(phrase, []).append(parameter.name)

@@ -44,6 +44,7 @@ def short_names(site: Site) -> Iterator[tuple[Phrase, NameEntry]]:
         for name in names if len(names) <= _MOST else ():
             cost = _SHORT + _OR_THE_SITE - 1.0 if (head,) in outlines else _OR_THE_SITE if head in plots else _SHORT
             yield (head,), NameEntry(kind="ZONE", value=name, cost=cost)
+    yield from _kinds_of_ground(site)
     for name, words in named.items():
         if len(words) == 2 and words[-1] in vocabulary()["plants"]["containers"] and (words[0],) not in whole:
             yield words[:1], NameEntry(kind="ZONE", value=name, cost=_SHORT)
@@ -59,6 +60,21 @@ def short_names(site: Site) -> Iterator[tuple[Phrase, NameEntry]]:
             yield (head,), NameEntry(kind="GATENAME", value=name, cost=_SHORT)
         yield (plural_of(head),), NameEntry(kind="GATES", value=tuple(names), plural=True)
         yield (head,), NameEntry(kind="GATES", value=tuple(names))
+
+
+def _kinds_of_ground(site: Site) -> Iterator[tuple[Phrase, NameEntry]]:
+    """Yield the nouns that several zones have in common ("section" of the warm section), and those for every zone."""
+    zones = {zone.name: split(zone.name) for zone in site.zones if zone.kind == "zone" and split(zone.name)}
+    unnumbered = {name: words for name, words in zones.items() if not words[-1].isdecimal()}
+    kinds: dict[str, list[str]] = {}
+    for name, words in unnumbered.items():
+        if len(words) > 1 and words[-1] == _head(words):
+            kinds.setdefault(words[-1], []).append(name)
+    kinds["zone"] = list(unnumbered)
+    for head, names in kinds.items():
+        if len(names) > 1:
+            yield (head,), NameEntry(kind="ZONEKIND", value=tuple(names))
+            yield (plural_of(head),), NameEntry(kind="ZONEKIND", value=tuple(names), plural=True)
 
 
 def _head(words: Phrase) -> str:

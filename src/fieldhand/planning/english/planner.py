@@ -123,11 +123,12 @@ class EnglishPlanner:
 
 
 def _earlier(words: Sequence[Word], site: Site, robot: RobotProfile) -> frozenset[int]:
-    """Return the numbers of the words that state a time of earlier missions."""
+    """Return the numbers of the words that state a time of earlier missions, or when plants were sown."""
     from fieldhand.planning.grammar.earlier.past_words import past_words
     from fieldhand.planning.grammar.english import camera_of
+    from fieldhand.planning.grammar.planting_words import planting_words
 
-    return past_words(words, lexicon_for(robot, site), camera_of(robot))
+    return past_words(words, lexicon_for(robot, site), camera_of(robot)) | planting_words(words, site)
 
 
 def _unplanned(

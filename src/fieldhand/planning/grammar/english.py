@@ -22,6 +22,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.earlier.edges import earlier_edges
 from fieldhand.planning.grammar.event_words import NO_EVENTS, EventPatterns, response_words, says_any_time
 from fieldhand.planning.grammar.language import GrammarLanguage
+from fieldhand.planning.grammar.planting_words import planting_edges
 from fieldhand.planning.grammar.words import FeatureTable
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
@@ -83,6 +84,7 @@ class EnglishPhrases:
         if found or says_any_time(words):
             yield from ((category, start, end, None) for category, start, end in response_words(words))
         yield from earlier_edges(words, self.lexicon, self.camera)
+        yield from planting_edges(words, self.lexicon.site)
 
     def entries(self, phrase: Phrase) -> Iterator[NameEntry]:
         """Yield what a phrase can be: in the lexicon, spelt out, and in english.toml."""

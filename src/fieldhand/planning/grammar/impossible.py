@@ -16,15 +16,19 @@ from fieldhand.planning.grammar.commands.parameters import in_unit_of, with_para
 from fieldhand.planning.grammar.commands.waits import LONGEST_WAIT_S
 from fieldhand.planning.grammar.earlier.work import EarlierWork
 from fieldhand.planning.grammar.meaning import Amount, CaptureCommand, Nominal, ParameterValue, PlaceMeaning, Thing
+from fieldhand.planning.grammar.places.sampling import is_keep_out
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
     as_zone,
     measures_distance,
 )
 from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
 
+#: Words in the names of the attributes of which a description tells too little.
+_TOLD = ("", "=", "vigor", "age", "height", "yield")
 #: Category of these phrases.
 IMPOSSIBLE = "impossible"
 
@@ -62,6 +66,49 @@ def no_such_number(number: Lex, inner: Nominal) -> Impossible | None:
     return Impossible(message("it is not clear how many"), message("say how many as a whole number above 0"))
 
 
+@construction("PARALLEL region", "PARALLEL place")
+def askew() -> Impossible:
+    """Compose "parallel to the hedge", which runs neither from north to south nor from east to west."""
+    return Impossible(
+        message("lanes run from north to south or from east to west"), message("say 'in lanes from north to south'")
+    )
+
+
+@construction(
+    "WORKV [ALONG] fence=region [COMMA] ordered",
+    "WORKV [ALONG] fence=region FROM place",
+    "WORKV [ALONG] fence=region up_to [DET] DIR FINISH",
+    "WORKV [ALONG] fence=region up_to ITS DIR FINISH",
+    given=("site",),
+)
+def part_of_fence(fence: s.Selector, site: Site) -> Impossible | None:
+    """Compose "film the fence from south to north"."""
+    if not is_keep_out(fence, site):
+        return None
+    return Impossible(
+        message("an edge is worked all the way round, not in parts, and in no direction that can be said"),
+        message("say 'film along the fence' without its ends"),
+    )
+
+
+@construction("apart_least", given=("site",))
+def points_apart(site: Site) -> Impossible | None:
+    """Compose "at least 8 m apart" where no trees grow, of points that are drawn."""
+    if site.trees:
+        return None
+    return Impossible(
+        message("points keep no least distance from each other"), message("say 'spread evenly', or 'on a 10 m grid'")
+    )
+
+
+@construction("VAGUESPACING")
+def unsaid_spacing() -> Impossible:
+    """Compose "every few metres"."""
+    return Impossible(
+        message("it does not say how far apart"), message("say the distance, 'every 10 m', or how many: 'at 8 places'")
+    )
+
+
 @construction("BETWEEN low=NUM AND high=NUM", "BETWEEN low=NUM AND high=amount", "BETWEEN low=amount AND high=amount")
 def nothing_between(low: Lex | Amount, high: Lex | Amount) -> Impossible | None:
     """Compose "between 40 and 30"."""
@@ -70,6 +117,15 @@ def nothing_between(low: Lex | Amount, high: Lex | Amount) -> Impossible | None:
         return None
     what = message("no value lies between {low} and {high}", low=Number(f"{first:g}"), high=Number(f"{last:g}"))
     return Impossible(what, message("put the lower number first"))
+
+
+@construction("FROM TREEID range_to TREEID", "BETWEEN TREEID AND TREEID")
+def part_of_a_row() -> Impossible:
+    """Compose "from G4-03 to G4-13" behind work along a row."""
+    return Impossible(
+        message("work along a row is done along the whole row: a part of it cannot be said yet"),
+        message("name the row: 'spray row 4'"),
+    )
 
 
 @construction("[DET] DIR HALF in_ rows", "[DET] DIR EDGE in_ rows", "[DET] DIR QUARTER in_ rows")
@@ -201,6 +257,9 @@ def work_at_places(where: PlaceMeaning) -> Impossible | None:
     """Compose "spray tree 4"."""
     if where.shape == "area":
         return None
+    several = len(where.selector.members) > 2
+    if several or any(isinstance(part, s.Rows) for part in where.selector.walk()):
+        return part_of_a_row()  # "spray row 4 from G4-03 to G4-13"
     return Impossible(
         message("this is done while driving along a path, not at single trees"),
         message("say along which rows, between which rows, or over which area"),
@@ -225,14 +284,16 @@ def keep_away_somehow() -> Impossible:
 
 
 @construction(
-    "[DET] VAGUEADJ TREE",
+    "[DET] word=VAGUEADJ TREE",
     "[DET] OLD TREE",
     "TREE OF VAGUEADJ ATTR",
     "TREE WITH VAGUEADJ ATTR",
     "VAGUEADJ [DASH] ATTR TREE",
 )
-def without_a_value() -> Impossible:
-    """Compose "the old trees" and "vines of low vigor"."""
+def without_a_value(word: Lex | None = None) -> Impossible | None:
+    """Compose "the old trees" and "vines of low vigor"; dry ones may be what the robot is to find out."""
+    if word is not None and word.value[0] not in _TOLD:
+        return None
     return Impossible(
         message("it does not say from which value on"),
         message("say 'older than 8 years', or 'the ten oldest trees'"),
@@ -332,3 +393,38 @@ def too_long(time: Amount) -> Impossible | None:
     if time.unit != "seconds" or 0.0 < time.number <= LONGEST_WAIT_S:
         return None
     return Impossible(message("a wait lasts at most 24 hours"), message("say a shorter time, or plan two missions"))
+
+
+@construction(
+    "[DET] STRIP amount=amount DIMENSION", "[DET] amount=amount [DASH] [DIMENSION] STRIP",
+    "[DET] amount=amount [DASH] DIMENSION STRIP",
+    given=("robot",),
+)  # fmt: skip
+def strip_of_a_width(amount: Amount, robot: RobotProfile) -> Impossible | None:
+    """Compose "a strip three metres wide", which is as wide as the implement."""
+    widths = [one.implement.width_m for one in robot.actions if one.implement is not None and one.implement.covers]
+    if amount.unit != "metres" or not widths:
+        return None
+    what = message("a strip along an edge is as wide as the implement, {width} m", width=Number(f"{max(widths):g}"))
+    return Impossible(what, message("leave out the width and say how many laps: 'mow one lap around the paddock'"))
+
+
+@construction("way=CLOCKWISE")
+def direction_around(way: Lex) -> Impossible:
+    """Compose "clockwise" behind a drive around an area; the corners can be visited so."""
+    del way
+    return Impossible(
+        message("in which direction it drives around an area cannot be said yet"),
+        message("leave it out: the direction is the shorter one, or that of the implement"),
+    )
+
+
+@construction("amount=amount FROM [DET] EDGE", "amount=amount CLEAROF [DET] EDGE")
+def distance_from_edge(amount: Amount) -> Impossible | None:
+    """Compose "4 metres from the edge" behind a drive around an area."""
+    if amount.unit != "metres":
+        return None
+    return Impossible(
+        message("how far from an edge it drives along it cannot be said yet"),
+        message("leave it out: it drives as near as it can"),
+    )

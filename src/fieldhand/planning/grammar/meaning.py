@@ -49,10 +49,14 @@ UNKNOWN_THINGS = frozenset({LAST_THING, LAST_THINGS, UNSAID_THING})
 SAME_VALUE = "="
 #: Rows that were named before ("these rows"), until the dialogue knows which.
 THOSE_ROWS = s.Rows(first="those rows", last="the last of those rows")
+#: Zone that was spoken of before ("mow it"), until the dialogue knows which.
+THAT_GROUND = "that ground"
 #: Value of a parameter that is the profile's own ("at the standard depth").
 DEFAULT_VALUE = ""
 #: Quantity of a test of a reading of the request by its number: "^1" is the first, "^-1" the last.
 NTH_READING = "^"
+#: Quantity of the other side of a test of how far two readings, or two means, are apart.
+DIFFERENCE = "^difference"
 #: Quantity of a test of the latest reading of several ("that one").
 LATEST_READING = "^^"
 
@@ -105,15 +109,18 @@ class Likewise:
     Attributes:
         kind: Half, quarter or corner, ``extreme`` for the tree or the row that is farthest to the side, ``ranked``,
             ``rest`` for the others of those, ``nth`` for one of several that were named, ``those`` for others of that
-            description, ``value`` for those with another value ("the green ones"), or ``read`` for those with the
-            highest readings ("the hottest one"), whose unit is ``side``; empty if it is of the kind of the one before.
+            description, ``value`` for those with another value ("the green ones"), ``read`` for those with the
+            highest readings ("the hottest one"), whose unit is ``side``, or ``compared`` for the one of two that has
+            the lower or the higher mean (``lt`` or ``gt`` as ``side``); empty if it is of the kind of the one before.
         number: Which one of several, from 1 on; -1 for the last.
         side: Side of the compass; empty for the opposite side.
         holds: True if the places are inside it.
         of_number: Number of those of which it is one, if the phrase says it ("the last of the four").
     """
 
-    kind: Literal["", "half", "quarter", "corner", "extreme", "ranked", "rest", "nth", "those", "value", "read"]
+    kind: Literal[
+        "", "half", "quarter", "corner", "extreme", "ranked", "rest", "nth", "those", "value", "read", "compared"
+    ]
     side: str = ""
     holds: bool = False
     number: int = 0
@@ -289,6 +296,7 @@ class DriveCommand:
         ends: True if nothing is done behind it ("ending at the charger").
         instead: True if what another case has is done there ("go five trees south instead").
         pace: Speed of the drive, if the phrase says it ("drive slowly to tree 4").
+        to: True for a drive to an area, and not around it or through it.
     """
 
     place: PlaceMeaning
@@ -300,6 +308,7 @@ class DriveCommand:
     ends: bool = False
     instead: bool = False
     pace: PaceClause | None = None
+    to: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -314,6 +323,9 @@ class WorkCommand:
         sides, every, heading, laps, optional, parameters: As of the plan node.
         rest_s: Seconds of rest between laps.
         rests_last: True if it rests after the last lap as well.
+        back: True if it is done on the way back from the work before it, in the other direction.
+        edge_side: Side of an edge on which the phrase says that it drives.
+        it: True if the phrase refers to the ground by "it".
     """
 
     action: str
@@ -328,6 +340,9 @@ class WorkCommand:
     parameters: tuple[tuple[str, str | float], ...] = ()
     rest_s: float = 0.0
     rests_last: bool = False
+    back: bool = False
+    edge_side: Literal["", "inside", "outside"] = ""
+    it: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -606,6 +621,13 @@ class Total:
 
 
 @dataclass(frozen=True, slots=True)
+class Reported:
+    """A wish to be told what the report of the mission says anyway ("and tell me the average")."""
+
+    used: int
+
+
+@dataclass(frozen=True, slots=True)
 class Again:
     """A command to do what was done at the last place again, at another place or there.
 
@@ -756,6 +778,7 @@ class Connective:
         purpose: True for "to" before what is done at the place.
         precedes: True for "before".
         in_turn: True for "then" that adds another place ("row 3, then row 4").
+        each: True for "and after each one", before what is done then.
     """
 
     full: bool
@@ -770,6 +793,7 @@ class Connective:
     purpose: bool = False
     precedes: bool = False
     in_turn: bool = False
+    each: bool = False
 
 
 #: Conditions that are checked throughout the mission.
@@ -832,6 +856,7 @@ Command = (
     | UntilCondition
     | VisitLimit
     | Total
+    | Reported
     | RankCommand
     | Again
     | InAnOrder

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Set as AbstractSet
 
 from fieldhand.planning.grammar.tellings import Telling, WordKinds, head_of_number, place_words
 
@@ -76,6 +77,152 @@ def purpose(sentence: Sequence[int], openings: Mapping[int, int], known: WordKin
     if opens and len(places) == 1 and _refers_back(max(told) + 1, known) and _is_whole(places[0], body, known):
         return Telling(left_out=told - {said[0], *places[0]}, topic=said[0])
     return _named_again(places, told, said, known)
+
+
+#: Categories of words that no statement contains beside those that no purpose contains.
+_NO_STATEMENT = _NEVER | frozenset(
+    {
+        "DOES", "GIVES", "HOPES", "KEEP", "KEEPOUT", "LEAVE", "LEFTOUT", "LIMITEDTO", "MATTERS", "MUST", "OFFLIMITS",
+        "PASSES", "PASSON", "REPEAT", "SAMEFOR", "SHOULD", "STAY", "STOP", "TIMES", "TIMEWORD", "TOPIC", "UNCUT",
+        "UNTOUCHED", "UPTO", "WANTED", "WANTS",
+    }
+)  # fmt: skip
+#: Words with which a statement begins, and what somebody finds that it is like.
+_SUBJECTS = frozenset({"today", "tomorrow", "something", "somebody", "someone", "nothing"})
+_OURS = frozenset({"i", "we", "i'm", "we're", "they", "they're"})
+_SEARCHES = frozenset({"check", "inspect", "examine", "survey", "search", "scan"})
+_COMES = frozenset({"come", "comes", "go", "goes", "are", "is"})
+_LOOKS = frozenset({"look", "looks", "looked", "feel", "feels", "felt", "seem", "seems", "smell", "smells"})
+
+
+def statement(sentence: Sequence[int], known: WordKinds) -> Telling | None:
+    """Return what a sentence states of places that the request then names again or refers to; None if it may ask.
+
+    "The slope is steep, so mow it slowly": the statement ends where the sentence does, or before "so". It has a
+    subject other than the robot, and a verb that says what the subject is, has or did.
+
+    Args:
+        sentence: Numbers of the words of the sentence, its commas among them.
+        known: What the words of the request can be.
+    """
+    if (search := _search(sentence, known)) is not None:
+        return search
+    said = [k for k in sentence if "FILLER" not in known.kinds[k] or "TELLS" in known.kinds[k]]
+    if len(said) < 3 or not _is_subject(said, known):
+        return None
+    end = next((at for at in range(2, len(said)) if _ends_statement(at, said, known)), len(said))
+    body = said[:end]
+    if end == len(said) and any(known.words[k].kind == "comma" for k in body):
+        return None
+    places = [_without_quality(run, known) for run in _places(body, known)]
+    placed = {k for run in places for k in run}
+    if len(places) > 1 and len(placed) == len(body):
+        return None
+    verb = next((k for at, k in enumerate(body) if k not in placed and _states(at, body, known)), None)
+    if verb is None or not all(_is_plain(at, body, placed, known) for at in range(len(body))):
+        return None
+    last = next((at for at in range(end, len(said)) if known.words[said[at]].norm not in _JOINTS | {","}), len(said))
+    told = frozenset(k for k in sentence if k < (said[last] if last < len(said) else sentence[-1] + 1))
+    if len(places) == 1 and _refers_back(max(told) + 1, known):
+        place = places[0]
+        fits = _is_whole(place, body, known) and place[-1] < verb
+        return Telling(left_out=told - {verb, *place}, topic=verb) if fits else None
+    if end < len(said) and not _refers_back(max(told) + 1, known):
+        return Telling(left_out=told)  # a reason, whatever it names
+    if not places and (known.words[said[0]].norm not in ("is", "'s") or _refers_back(max(told) + 1, known)):
+        return None
+    if any(known.words[k].norm == "first" for k in body) and not _is_named_first(places, max(told) + 1, known):
+        return None
+    return _named_again(places, told, said, known)
+
+
+def _search(sentence: Sequence[int], known: WordKinds) -> Telling | None:
+    """Return what "check the fence for holes: film it" looks for, before the command that serves it."""
+    end = next((at for at, k in enumerate(sentence) if known.words[k].text in _COLONS), 0)
+    body = sentence[:end]
+    if not body or known.words[body[0]].norm not in _SEARCHES or not _refers_back(sentence[end], known):
+        return None
+    places = _places(body, known)
+    sought = next((at for at, k in enumerate(body) if known.words[k].norm == "for"), 0)
+    if len(places) != 1 or not sought or places[0] != body[1:sought] or any(known.kinds[k] for k in body[sought + 1 :]):
+        return None
+    told = frozenset(sentence[: end + 1])
+    return Telling(left_out=told - {*places[0], body[sought]}, topic=body[sought])
+
+
+def _without_quality(run: Sequence[int], known: WordKinds) -> Sequence[int]:
+    """Return the words of a place without those that say how something is there ("high on the bank")."""
+    behind = len(run) > 1 and "VAGUEADJ" in known.kinds[run[0]] and "AT" in known.kinds[run[1]]
+    return run[2:] if behind else run
+
+
+def _is_named_first(places: Sequence[Sequence[int]], start: int, known: WordKinds) -> bool:
+    """Return True if the only place is the first one that the words from one on name ("carrots come first")."""
+    after = next((k for k in range(start, len(known.words)) if known.names_place(k)), None)
+    if after is None or len(places) != 1:
+        return False
+    return known.words[after].norm.removesuffix("s") in {name for name, _ in _named(places[0], known)}
+
+
+def _is_subject(said: Sequence[int], known: WordKinds) -> bool:
+    """Return True if a sentence begins with somebody or something other than the robot and its work."""
+    kinds, word = known.kinds[said[0]], known.words[said[0]].norm
+    if known.may_be(said[0], _VERBS | {"DOES", "NUM", "IF", "WHERE"}) and not kinds & {"TELLS"}:
+        return False
+    if "DOES" in known.kinds[said[1]] and "DET" in kinds:
+        return False
+    if word in ("is", "'s"):  # "(today) is hay day", of which the day is a time
+        asks = any("?" in known.words[k].text for k in range(said[-1] + 1, min(said[-1] + 2, len(known.words))))
+        return not asks and not any(known.kinds[k] for k in said[1:])
+    return word in _SUBJECTS or bool(kinds & {"DET", "TELLS"}) or known.names_place(said[0])
+
+
+def _ends_statement(at: int, said: Sequence[int], known: WordKinds) -> bool:
+    """Return True for "so" before a command, with the comma before it, and for a mark before one."""
+    word = known.words[said[at]]
+    if word.text in _COLONS:
+        return True
+    follows = [known.words[k].norm for k in said[at + 1 : at + 2]]
+    return word.norm == "so" or (word.kind == "comma" and follows == ["so"])
+
+
+def _states(at: int, body: Sequence[int], known: WordKinds) -> bool:
+    """Return True for the verb of a statement."""
+    k = body[at]
+    word, kinds = known.words[k], known.kinds[k]
+    if word.norm in _COMES and at + 1 < len(body) and known.words[body[at + 1]].norm == "first":
+        return True
+    if "STAYV" in kinds and at > 1 and not known.kinds[body[at - 1]]:
+        return True
+    if word.norm in _LOOKS:
+        return at + 1 < len(body) and not known.kinds[body[at + 1]] & {"AT", "FOR", "DET", "IT"}
+    told = at > 0 and not kinds and known.is_past(k) and "TELLS" in known.kinds[body[at - 1]]
+    return told or bool(kinds & {"AUXILIARY", "STATES"}) or word.norm in ("is", "are", "was", "were", "'s")
+
+
+def _is_plain(at: int, body: Sequence[int], placed: AbstractSet[int], known: WordKinds) -> bool:
+    """Return True for a word of a statement that neither asks for something nor restricts the work."""
+    k = body[at]
+    word, kinds = known.words[k], known.kinds[k]
+    if k in placed or word.norm in _LOOKS or "HARMLESS" in kinds:
+        return True
+    before = known.words[body[at - 1]].norm if at > 0 else ""
+    if word.norm == "first" and before in _COMES and at + 1 >= len(body) - 1:
+        return True
+    if word.norm.endswith("n't") or word.kind in ("number", "rank", "comma"):
+        return False
+    if known.captures.get(k) and "GROUND" not in kinds:
+        return False
+    if "STAYV" in kinds and at > 1 and not known.kinds[body[at - 1]]:
+        return True  # "the horses stay in the barn"
+    if "AT" in kinds and at + 1 < len(body) and (body[at + 1] in placed or "DET" in known.kinds[body[at + 1]]):
+        return word.norm not in ("above", "over", "than")
+    if known.may_be(k, _NO_STATEMENT) and word.norm not in ("is", "are", "was", "were", "has", "have", "had", "will"):
+        return False
+    ours = before == "to" and not kinds and known.words[body[0]].norm in _OURS and at > 2
+    if ours and known.words[body[at - 2]].norm in ("going", "about", "planning", "plan", "hoping"):
+        return True  # "we are going to harvest them"
+    return not (before in ("and", "or", "then", "to") and (not kinds or known.may_be(k, _VERBS)))
 
 
 def _ends(at: int, said: Sequence[int], known: WordKinds) -> bool:
@@ -172,6 +319,8 @@ def _refers_back(start: int, known: WordKinds) -> bool:
         if kinds & _BACK and not kinds & {"FILLER", "ASIDE", "INDEFINITE"}:
             return True
         if "EACH" in kinds and (not follows or follows[0].kind in ("comma", "stop")):
+            return True
+        if known.words[k].norm in ("one", "ones") and k > 0 and known.kinds[k - 1] & {"EACH", "ORD", "OTHER"}:
             return True
         tree = "TREE" in kinds and not any(one.kind == "number" for one in follows)
         if known.names_place(k) and not tree:

@@ -13,7 +13,7 @@ from fieldhand.planning.grammar.earlier.edges import EARLIER
 from fieldhand.planning.grammar.earlier.past_words import past_ranges
 from fieldhand.planning.grammar.list_marks import list_marks
 from fieldhand.planning.grammar.people import sender, who_wants
-from fieldhand.planning.grammar.purposes import purpose
+from fieldhand.planning.grammar.purposes import purpose, statement
 from fieldhand.planning.grammar.tellings import WordKinds, telling
 from fieldhand.task.plan import Span
 
@@ -30,10 +30,12 @@ _ASKING = frozenset(
 )  # fmt: skip
 #: Categories that ask for something even in a reason ("so we can check ..." gives a reason, "to photograph row 4" not).
 _ASKING_IN_REASON = _ASKING - {"MEASURE", "TAKE", "GO", "USE", "IF", "WHETHER", "LEVEL", "ACTV", "RETURN", "REPEAT"}
+#: Categories of words that may say what a study is about.
+_OF_STUDIES = frozenset({"DET", "GROUND", "NOUN", "OWNER", "PAPERWORK", "READING"})
 #: Categories of words that an aside may have beside unknown ones ("for the lab").
 _IN_ASIDES = frozenset(
     {"DET", "FOR", "FILLER", "IT", "IS", "WHICH", "OF", "MORE", "QUESTION", "THATWORD", "AT", "AS", "TELLS", "MEASURE"}
-    | {"PAPERWORK", "PURPOSE"}
+    | {"PAPERWORK", "PURPOSE", "TELLME"}
 )
 #: Categories of words that what is told of a tree may have beside unknown ones ("the one by the road").
 _IN_APPOSITIONS = frozenset({"AT", "BY", "DET", "DIMENSION", "IMPERSONAL", "IS", "OF", "VAGUEADJ", "WHICH"})
@@ -46,6 +48,9 @@ RESTRICTING = frozenset(
     }
 )  # fmt: skip
 _VERBS = frozenset({"ACTV", "GO", "MEASURE", "STOP", "TAKE", "USE", "VISIT"})
+#: Who may be those who ask.
+_WHEN_WE = frozenset({"before", "after", "while", "whilst"})
+_WE = frozenset({"i", "we", "i've", "we've", "i'm", "we're", "they", "he", "she"})
 #: Categories of the words with which a request begins.
 _WHO_ASKS = frozenset({"FILLER", "MEASURE", "TAKE", "TELLS"})
 
@@ -129,7 +134,8 @@ def without_remarks(
     openings = dict(aims)
     for whole in sentences:
         sentence: Sequence[int] = whole
-        if (aim := purpose(sentence, openings, known)) is not None:
+        aim = purpose(sentence, openings, known) or (statement(sentence, known) if tells else None)
+        if aim is not None:
             left_out |= aim.left_out
             topics |= set() if aim.topic is None else {aim.topic}
             sentence = [k for k in sentence if k not in aim.left_out]
@@ -151,8 +157,9 @@ def without_remarks(
         for clause in _clauses(words, sentence):
             aside = _reason(clause, reasons, kinds) or _aside(clause, kinds)
             if tells and not aside:
-                aside = _because(clause, known) or _before_people(clause, kinds)
+                aside = _because(clause, known) or _before_people(clause, known)
                 aside = aside or (clause if _is_apposition(clause, said, words, kinds) else ())
+                aside = aside or (clause if said and clause[0] == said[0] and _is_for_study(clause, kinds) else ())
             if tells and not aside and telling(clause, known, sentence=False) is not None:
                 aside = clause
             if aside and len(aside) < len(said):
@@ -291,8 +298,16 @@ def _for_what(said: Sequence[int], purposes: Mapping[int, int], kinds: Sequence[
     length = sum(k < end for k in said)
     while length < len(said) and kinds[said[length]] & {"DET", "PAPERWORK"}:
         length += 1
-    told = length > 1 and (said[0] in purposes or "PAPERWORK" in kinds[said[length - 1]])
+    study = next((at for at, k in enumerate(said[:5]) if at > 1 and _is_for_study(said[: at + 1], kinds)), 0)
+    length = max(length, study + 1)
+    told = length > 1 and (said[0] in purposes or study > 0 or "PAPERWORK" in kinds[said[length - 1]])
     return said[:length] if told and length < len(said) and kinds[said[length]] & _WHO_ASKS else ()
+
+
+def _is_for_study(clause: Sequence[int], kinds: Sequence[set[str]]) -> bool:
+    """Return True for what work is for, by what is studied: "for the nitrogen trial"; a place is named by the work."""
+    begins, ends = "FOR" in kinds[clause[0]], bool(kinds[clause[-1]] & {"HEADING", "PAPERWORK"})
+    return begins and ends and all(not kinds[k] or kinds[k] & _OF_STUDIES for k in clause[1:-1])
 
 
 def _reason(clause: Sequence[int], reasons: set[int], kinds: Sequence[set[str]]) -> Sequence[int]:
@@ -319,14 +334,34 @@ def _because(clause: Sequence[int], known: WordKinds) -> Sequence[int]:
     return clause[begin:]
 
 
-def _before_people(clause: Sequence[int], kinds: Sequence[set[str]]) -> Sequence[int]:
-    """Return what somebody is going to do ("before the crew needs the machine back"); empty if nobody is."""
-    begin = next((at for at, k in enumerate(clause) if "BEFORE" in kinds[k]), None)
-    if begin is None or not any("PEOPLE" in kinds[k] for k in clause[begin + 1 : begin + 4]):
+def _before_people(clause: Sequence[int], known: WordKinds) -> Sequence[int]:
+    """Return what people are going to do ("before the crew needs the machine back"); empty if nobody is.
+
+    "Before I water them" and "after we have watered them" tell when somebody starts the mission.
+    """
+    kinds = known.kinds
+    begin = next((at for at, k in enumerate(clause) if known.words[k].norm in _WHEN_WE), None)
+    if begin is None:
         return ()
     said = clause[begin + 1 :]
+    ours = bool(said) and known.words[said[0]].norm in _WE
+    if not ours and ("BEFORE" not in kinds[clause[begin]] or not any("PEOPLE" in kinds[k] for k in said[:3])):
+        return ()
+    if ours:
+        return clause[begin:] if len(said) > 1 and _is_ours(said, known) else ()
     asks = any(kinds[k] & (_ASKING - {"BEFORE", "RETURN", "USE", "MEASURE", "GO"}) for k in said)
     return () if asks or len(said) < 3 else clause[begin:]
+
+
+def _is_ours(said: Sequence[int], known: WordKinds) -> bool:
+    """Return True for what "we" do, if none of it asks for something, or says when."""
+    for before, k in pairwise(said):
+        word, kinds = known.words[k], known.kinds[k]
+        if word.kind in ("number", "rank", "unit") or word.norm.endswith("n't") or kinds & (RESTRICTING - {"TIMES"}):
+            return False
+        if known.words[before].norm in ("and", "then", "but", "or", "to") and (not kinds or known.may_be(k, _VERBS)):
+            return False
+    return True
 
 
 def _is_apposition(

@@ -8,7 +8,8 @@ from typing import Any
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Adjunct, Clause, once
-from fieldhand.planning.grammar.meaning import LAST_THING, UNSAID_THING, CaptureCommand, PlaceMeaning, Thing
+from fieldhand.planning.grammar.meaning import LAST_THING, UNSAID_THING, CaptureCommand, Nominal, PlaceMeaning, Thing
+from fieldhand.planning.grammar.places.counted import row_of_all
 from fieldhand.planning.grammar.places.groups import of_each_kind
 from fieldhand.planning.grammar.places.sampling import bare_points
 from fieldhand.planning.grammar.places.vague import as_many_of_best
@@ -67,6 +68,8 @@ def _each(command: CaptureCommand, things: tuple[Thing, ...] | int | None) -> Ca
     place = command.place
     if place is None and command.relation == "bare" and things is None:
         return replace(command, place=PlaceMeaning(s.Here(), "those", each=True))  # "(five vines.) A picture each."
+    if place is not None and place.per is not None and place.shape == "area" and isinstance(things, int):
+        return command if command.things else None  # "in both sections, three readings each"
     if place is None or place.shape != "several" or not command.things or not all(one.count for one in command.things):
         return None
     return replace(command, place=replace(place, each=True))
@@ -131,10 +134,26 @@ def _at_so_many(command: CaptureCommand, count: int) -> CaptureCommand | None:
     return None if made is None else replace(made, things=tuple(replace(one, plural=True) for one in made.things))
 
 
-def _evenly(command: CaptureCommand, _: None) -> CaptureCommand | None:
+@dataclass(frozen=True, slots=True)
+class _Drawing:
+    """The site on which places are drawn."""
+
+    site: Site = field(compare=False)
+
+
+def _evenly(command: CaptureCommand, drawing: _Drawing) -> CaptureCommand | None:
     place, count = command.place, _only_count(command)
+    if place is not None and isinstance(place.selector, s.PointsIn) and not place.selector.random:
+        return command  # as free points are spread anyway
+    if place is not None and place.shape == "several" and (some := as_some(place.selector)) is not None:
+        in_rows = any(are_rows(part) for part in some.of.walk())
+        own = None if in_rows else row_of_all(Nominal(some.of), drawing.site)
+        along = None if own is None else replace(place, selector=s.Evenly(count=some.count, of=over(some.of, own)))
+        return None if along is None or place.per is not None else replace(command, place=along)
     if place is None or place.shape != "area" or place.per is not None or count is None:
         return None
+    if (free := bare_points(place.selector, drawing.site, count)) is not None:
+        return replace(command, things=once(command.things), place=PlaceMeaning(free, "several", count=count))
     if not (are_rows(place.selector) and is_one_row(place.selector)):
         return None
     even = PlaceMeaning(s.Evenly(count=count, of=place.selector), "several", count=count)
@@ -150,13 +169,6 @@ def _free_choice(command: CaptureCommand, count: int | None) -> CaptureCommand |
     return command if some or (place.shape == "area" and not _is_uncounted(command)) else None
 
 
-@dataclass(frozen=True, slots=True)
-class _Drawing:
-    """The site on which places are drawn."""
-
-    site: Site = field(compare=False)
-
-
 def _at_random(command: CaptureCommand, drawing: _Drawing) -> CaptureCommand | None:
     place, count = command.place, _only_count(command)
     if place is not None and place.shape == "area" and place.per is None and count is not None:
@@ -165,6 +177,8 @@ def _at_random(command: CaptureCommand, drawing: _Drawing) -> CaptureCommand | N
         return replace(command, things=once(command.things), place=drawn_there)
     if place is None or place.shape not in ("one", "several") or place.per is not None:
         return None
+    if isinstance(place.selector, s.PointsIn) and place.count and not place.selector.random:
+        return replace(command, place=replace(place, selector=replace(place.selector, random=True)))
     quota = as_quota(place.selector)
     if quota is not None and quota.how == "spread":
         return replace(command, place=replace(place, selector=replace(quota, how="random")))
@@ -208,10 +222,10 @@ def at_so_many(n: int) -> Adjunct:
     return Adjunct(_at_so_many, n, of_place=True, is_sentence=True)
 
 
-@construction("adjunct: EVENLYSPACED", cost=0.2)
-def evenly_spaced() -> Adjunct:
-    """Compose "evenly spread", along a row."""
-    return Adjunct(_evenly)
+@construction("adjunct: EVENLYSPACED", cost=0.2, given=("site",))
+def evenly_spaced(site: Site) -> Adjunct:
+    """Compose "evenly spread", along a row or over ground without plants."""
+    return Adjunct(_evenly, _Drawing(site), is_sentence=True)
 
 
 @construction("adjunct: ANY [TREE] REMAINS", "adjunct: ANY n=count [TREE] REMAINS", "adjunct: FREECHOICE", cost=0.2)
@@ -223,7 +237,7 @@ def whichever_it_is(n: int | None = None) -> Adjunct:
 @construction("adjunct: RANDOM", "adjunct: AT RANDOM POINT", cost=0.2, given=("site",))
 def chosen_at_random(site: Site) -> Adjunct:
     """Compose "chosen at random"."""
-    return Adjunct(_at_random, _Drawing(site))
+    return Adjunct(_at_random, _Drawing(site), is_sentence=True)
 
 
 @construction("adjunct: ASMANY as_can", cost=0.2)

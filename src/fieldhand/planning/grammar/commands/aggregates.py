@@ -8,7 +8,17 @@ from typing import Any, Literal, cast
 from fieldhand.places.series_statistics import Statistic
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import SAME_THRESHOLD, AllTests, Amount, HowMany, PlaceMeaning, Subject, Test
+from fieldhand.planning.grammar.meaning import (
+    DIFFERENCE,
+    NTH_READING,
+    SAME_THRESHOLD,
+    AllTests,
+    Amount,
+    HowMany,
+    PlaceMeaning,
+    Subject,
+    Test,
+)
 from fieldhand.planning.grammar.words import Lex
 
 GRAMMAR = Grammar()
@@ -16,6 +26,8 @@ construction = GRAMMAR.construction
 
 #: Checks of a number of readings.
 _COUNTS = ("lt", "le", "gt", "ge")
+#: The last reading, and the one before it.
+_LAST, _BEFORE = f"{NTH_READING}-1", f"{NTH_READING}-2"
 #: Shapes of the places of several readings.
 _PLACES = ("several", "area")
 
@@ -226,13 +238,79 @@ def side_of_place(place: PlaceMeaning, noun: Lex | None = None, word: Lex | None
 
 
 @construction(
+    "test: [DET] DIFFERENCE [OFTHEM] [IS] test=predicate", "test: DET DIFFERENCE BETWEENTHEM [IS] test=predicate",
+    "test: [IT] DIFFER BY more=CMP by=amount", "test: [IT] DIFFER BY [ATLEAST] by=amount",
+    "test: DET count [GROUPNOUN] DIFFER BY more=CMP by=amount",
+    "test: GROUPALL DIFFER BY more=CMP by=amount", "test: GROUPALL DIFFER BY [ATLEAST] by=amount",
+    "test: [IT] IS more=CMP by=amount APART", cost=0.1,
+)  # fmt: skip
+def they_differ(test: Test | None = None, more: Lex | None = None, by: Amount | None = None) -> Test | None:
+    """Compose "the difference is more than 5 degrees" and "they differ by more than 5 degrees", of two readings."""
+    than = Subject(DIFFERENCE)
+    if test is not None:
+        plain = test.check in _COUNTS and not test.negated and test.value != SAME_THRESHOLD and not test.quantity
+        return replace(test, of="mean", than=than) if plain and not test.attribute and not test.of else None
+    bound = "ge" if more is None else _check(more)
+    return None if by is None or bound is None else Test("", bound, by.number, by.unit, of="mean", than=than)
+
+
+@construction(
+    "side: DET rank=ORD READING", "side: DET rank=ORD ONE", "side: DET rank=ORD", "side: DET LAST READING",
+    "side: DET LAST ONE", cost=0.1,
+)  # fmt: skip
+def side_of_nth_reading(rank: Lex | None = None) -> Subject:
+    """Compose "the second reading" as one side of a comparison."""
+    return Subject(f"{NTH_READING}{-1 if rank is None else rank.value}")
+
+
+@construction(
+    "test: [subject=measured] way=CHANGED more=CMP by=amount",
+    "test: [subject=measured] way=CHANGED [AT] by=amount",
+    "test: [subject=measured] way=CHANGED BY more=CMP by=amount",
+    "test: [subject=measured] way=CHANGED BY by=amount",
+    "test: [subject=measured] way=CHANGED BY ATLEAST by=amount",
+    "test: [subject=measured] way=CHANGED ATLEAST by=amount",
+    "test: [subject=measured] IS way=CHANGED BY more=CMP by=amount",
+    "test: [subject=measured] IS way=CHANGED more=CMP by=amount",
+    "test: [subject=measured] IS way=CHANGED BY [ATLEAST] by=amount",
+    "test: [subject=measured] [IS] way=CHANGED",
+    "test: one=test CHANGEDSINCE",
+    cost=0.1,
+)  # fmt: skip
+def has_changed(
+    way: Lex | None = None,
+    subject: Subject | None = None,
+    more: Lex | None = None,
+    by: Amount | None = None,
+    one: Test | None = None,
+) -> Test | None:
+    """Compose "it has gone up by more than 50 ppm", of the last reading and the one before it."""
+    if one is not None:
+        return one if one.than is not None and one.than.quantity == _BEFORE else None
+    if way is None or (subject is not None and (subject.place is not None or subject.of or subject.setting)):
+        return None
+    bound = "ge" if more is None else _check(more)
+    if bound not in ("gt", "ge"):
+        return None
+    risen = "rises" in way.features
+    number = 0.0 if by is None else by.number
+    check: Any = ("gt" if by is None else bound) if risen else {"gt": "lt", "ge": "le"}["gt" if by is None else bound]
+    than = Subject(_BEFORE)
+    return Test(_LAST, check, number if risen else -number, "" if by is None else by.unit, of="mean", than=than)
+
+
+@construction(
     "test: first=side [IS] word=CMP second=side",
     "test: first=side [IS] by=amount word=CMP second=side",
     "test: first=side [IS] more=CMP by=amount word=CMP second=side",
     "test: first=side [IS] ONAVERAGE word=CMP second=side",
     "test: first=side [IS] word=CMP second=side ONAVERAGE",
     "test: first=side [IS] by=amount word=CMP second=side ONAVERAGE",
+    "test: first=side [IS] more=CMP by=amount word=CMP second=side ONAVERAGE",
+    "test: first=side [IS] ONAVERAGE more=CMP by=amount word=CMP second=side",
+    "test: first=side [IS] ONAVERAGE by=amount word=CMP second=side",
     "test: IS first=side word=CMP second=side",
+    "test: first=side AVERAGES word=CMP second=side",
     cost=0.2,
 )
 def is_more_than_other(
@@ -242,9 +320,10 @@ def is_more_than_other(
     value: Any = word.value
     if value in (None, "UPTO") or value[1] or value[0] not in ("lt", "gt") or "denies" in word.features:
         return None
-    if first.place is None or second.place is None or first.place.selector == second.place.selector:
+    by_number = all(one.place is None and one.quantity.startswith(NTH_READING) for one in (first, second))
+    if not by_number and (first.place is None or second.place is None or first.place.selector == second.place.selector):
         return None
-    if second.of not in ("", first.of) or second.quantity not in ("", first.quantity):
+    if second.of not in ("", first.of) or (second.quantity not in ("", first.quantity) and not by_number):
         return None
     check: Any = value[0]
     if by is not None and more is not None:
@@ -264,3 +343,28 @@ def is_more_than_other(
         of=first.of or "mean",
         than=second,
     )
+
+
+@construction(
+    "test: first=side IS word=BARECMP [ONAVERAGE]",
+    "test: first=side IS ONAVERAGE word=BARECMP",
+    "test: first=side AVERAGES word=BARECMP",
+    "test: first=side IS DET word=BARECMP of=STATISTIC",
+    "test: first=side IS DET word=BARECMP of=STATISTIC OFTHEALL",
+    "test: first=side IS DET word=BARECMP noun=NOUN",
+    cost=0.3,
+)
+def is_more_than_the_rest(
+    first: Subject, word: Lex, of: Lex | None = None, noun: Lex | None = None
+) -> list[Test] | None:
+    """Compose "the wet corner averages higher", than the other area that was read."""
+    if first.place is None or first.place.shape == "one" or word.value not in ("lt", "gt"):
+        return None
+    named = cast(Statistic, of.value) if of is not None else "mean"
+    quantities = [first.quantity]
+    if noun is not None:
+        quantities = [one for one in noun.value.quantities if first.quantity in ("", one)]
+    return [
+        Test(one, word.value, 0.0, place=first.place, of=first.of or named, than=Subject(of=first.of or named))
+        for one in dict.fromkeys(quantities)
+    ]

@@ -21,11 +21,9 @@ from fieldhand.planning.grammar.meaning import (
     Thing,
 )
 from fieldhand.planning.grammar.places.numbers import named_trees
-from fieldhand.planning.grammar.places.points import Points
+from fieldhand.planning.grammar.places.points import Ground, Points, points_on
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import (
-    specifies_part,
-)
+from fieldhand.planning.selections import as_zone, specifies_part
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
@@ -45,6 +43,16 @@ def here(word: Lex) -> PlaceMeaning:
         each="of_each" in word.features,
         one_tree=not several and "of_trees" in word.features,
     )
+
+
+@construction(
+    "here: AT word=EACH [DET] noun=TREE", "here: OF word=EACH [DET] noun=TREE", "here: AT word=EACH [DET] noun=POINT",
+    cost=0.1,
+)  # fmt: skip
+def at_both(word: Lex, noun: Lex) -> PlaceMeaning | None:
+    """Compose "at both plants", of two that were named."""
+    two = "two" in word.features and noun.text.endswith("s")
+    return PlaceMeaning(s.Here(), "those", each=True, count=2) if two else None
 
 
 @construction(
@@ -266,6 +274,29 @@ def so_many_more_there(n: int, where: s.Selector, used: int) -> CaptureCommand |
     )
 
 
+@construction(
+    "capture: MEASURE where=ground FOR things=things [COMMA] AT points=points",
+    "capture: MEASURE where=ground FOR things=things [COMMA] how=parameter [COMMA] AT points=points",
+    "capture: MEASURE where=ground FOR things=things [COMMA] AT points=points [COMMA] how=parameter",
+    cost=0.3,
+    given=("robot",),
+)  # fmt: skip
+def searched_for(
+    where: Ground,
+    things: tuple[Thing, ...],
+    points: Points,
+    used: int,
+    robot: RobotProfile,
+    how: ParameterValue | None = None,
+) -> CaptureCommand | None:
+    """Compose "test the slope for moisture at four evenly spread points"."""
+    if points.where is not None or points.count is None or any(one.count not in (None, 1) for one in things):
+        return None
+    made = things if how is None else tuple(one for thing in things if (one := with_parameter(thing, how, robot)))
+    place = points_on(where, points.count, random=points.random)
+    return CaptureCommand(made, place, used) if len(made) == len(things) else None
+
+
 @construction("capture: verb=TAKE place=place", cost=1.2)
 def do_the_rest(verb: Lex, place: PlaceMeaning, used: int) -> CaptureCommand | None:
     """Compose "do the rest", where the same is captured."""
@@ -356,18 +387,34 @@ def _act_on(verb: Lex, place: PlaceMeaning, used: int) -> CaptureCommand:
 @construction(
     "capture: MEASURE DET ground=GROUND relation place=place",
     "capture: MEASURE DET ground=GROUND how=parameter relation place=place",
-    "capture: MEASURE DET ground=GROUND relation place=place how=parameter",
+    "capture: MEASURE DET ground=GROUND relation place=place [COMMA] how=parameter",
+    "capture: verb=MEASURE [relation] place=place",
+    "capture: verb=MEASURE [relation] place=place [COMMA] how=parameter",
+    "capture: verb=MEASURE how=parameter relation place=place",
     cost=1.5,
     given=("robot",),
 )
 def ground_measured(
-    ground: Lex, place: PlaceMeaning, used: int, robot: RobotProfile, how: ParameterValue | None = None
+    place: PlaceMeaning,
+    used: int,
+    robot: RobotProfile,
+    ground: Lex | None = None,
+    verb: Lex | None = None,
+    how: ParameterValue | None = None,
 ) -> list[CaptureCommand] | None:
-    """Compose "test the soil at tree 4", which does not say what for."""
-    if "of_soil" not in ground.features:
+    """Compose "test the soil at tree 4" and "probe the slope", which do not say what for."""
+    if not any(word is not None and word.features & {"of_soil", "probes"} for word in (ground, verb)):
         return None
     names = {quantity.name for quantity in robot.quantities if "soil" in quantity.name}
     things = [Thing(action.name, plural=True) for action in robot.actions if names & {*action.measures}]
     if how is not None:
         things = [made for one in things if (made := with_parameter(one, how, robot)) is not None]
     return [CaptureCommand((one,), place, used) for one in things] or None
+
+
+@construction("capture: MEASURE it=IT word=relation place=place", cost=0.5)
+def measured_elsewhere(it: Lex, word: str, place: PlaceMeaning, used: int) -> CaptureCommand | None:
+    """Compose "read it at the herb patch", of what was read last."""
+    del it
+    known = place.shape == "area" and as_zone(place.selector) is not None
+    return CaptureCommand((Thing(LAST_THING, count=1),), place, used, relation=word) if known else None

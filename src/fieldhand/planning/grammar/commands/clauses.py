@@ -14,10 +14,12 @@ from typing import Any, Literal
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import LAST_THING, CaptureCommand, PlaceMeaning, Thing
+from fieldhand.planning.grammar.commands.parameters import with_parameter
+from fieldhand.planning.grammar.meaning import LAST_THING, CaptureCommand, ParameterValue, PlaceMeaning, Thing
 from fieldhand.planning.grammar.places.vague import as_many_of_best
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_every_nth, as_some, is_across
+from fieldhand.robot.model import RobotProfile
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -160,6 +162,13 @@ def act_part(verb: Lex) -> Clause:
     return _part("a", verb=verb)
 
 
+@construction("part: verb=ACTV how=parameter", cost=0.2, given=("robot",))
+def act_on_part(verb: Lex, how: ParameterValue, robot: RobotProfile) -> Clause | None:
+    """Compose "photograph the trunk"."""
+    made = with_parameter(Thing(verb.value.actions[0]), how, robot) if isinstance(how.value, str) else None
+    return None if made is None else _part("a", verb=verb, things=(made,))
+
+
 @construction("part: GO [towards] place=place", "part: VISIT place=place", cost=0.2)
 def go_part(place: PlaceMeaning) -> Clause | None:
     """Compose "go to tree 4"."""
@@ -174,7 +183,7 @@ def go_along_part(place: PlaceMeaning) -> Clause | None:
     return _part("k", place=place, relation="along") if place.shape == "area" and place.per is None else None
 
 
-@construction("part: [relation] DET GROUND", cost=0.2)
+@construction("part: [relation] DET GROUND", cost=0.8)
 def ground_part() -> Clause:
     """Compose "the soil" of "test the soil for nitrate" and "nitrate in the soil"."""
     return _part("z")
@@ -270,12 +279,16 @@ def first_part(part: Clause) -> Clause | None:
     return part if part.order in _BEGINNINGS else None
 
 
-@construction("clause: clause=clause part=part", cost=0.1)
-def next_part(clause: Clause, part: Clause) -> Clause | None:
+@construction("clause: clause=clause part=part", cost=0.1, given=("robot",))
+def next_part(clause: Clause, part: Clause, robot: RobotProfile) -> Clause | None:
     """Compose a clause with a further part, if there is such an order."""
     order = clause.order + part.order
+    if order.endswith("tz") and any(_has_view_of_ground(thing, robot) for thing in clause.things):
+        return None  # "a picture of the ground" is one of its views
     if order not in _BEGINNINGS or (clause.place is not None and part.place is not None):
         return None
+    if clause.things and part.things:
+        return None  # "photograph the trunk" names what is captured
     is_done = order == "ba" and part.verb is not None and "participle" in part.verb.features  # "tree 4 photographed"
     if order in _STOPS_FIRST and not clause.adjuncts and not is_done:
         return None  # "at tree 4 take a picture" is a place, and a command that is done there
@@ -289,11 +302,17 @@ def next_part(clause: Clause, part: Clause) -> Clause | None:
     )
 
 
-@construction("clause: clause=clause COMMA part=part", cost=0.4)
-def part_set_off(clause: Clause, part: Clause) -> Clause | None:
+def _has_view_of_ground(thing: Thing, robot: RobotProfile) -> bool:
+    """Return True for a capture of which one of the choices is the ground."""
+    action = robot.action.get(thing.action)
+    return action is not None and any("ground" in one.choices for one in action.parameters)
+
+
+@construction("clause: clause=clause COMMA part=part", cost=0.4, given=("robot",))
+def part_set_off(clause: Clause, part: Clause, robot: RobotProfile) -> Clause | None:
     """Compose "tree 4, a picture" and "five readings, each 10 m apart, in row 4"."""
     behind = clause.adjuncts and part.order in ("p", "v", "a")
-    return next_part(clause, part) if behind or clause.order + part.order in _SET_OFF else None
+    return next_part(clause, part, robot) if behind or clause.order + part.order in _SET_OFF else None
 
 
 @construction("clause: clause=clause [COMMA] adjunct=adjunct", cost=0.1)
@@ -409,7 +428,7 @@ def _act(clause: Clause, used: int) -> CaptureCommand | None:
         return CaptureCommand(once(things), clause.place, used)
     if clause.place is None:
         return CaptureCommand(things, None, used)
-    if clause.place.shape == "area" and not clause.things:  # "photograph row 3": each of its trees
+    if clause.place.shape == "area" and "t" not in clause.order:  # "photograph row 3": each of its trees
         things = tuple(replace(one, plural=True) for one in things)
     return CaptureCommand(things, clause.place, used, relation=clause.relation if "t" in clause.order else "of")
 

@@ -22,6 +22,7 @@ from fieldhand.planning.grammar.meaning import (
 from fieldhand.planning.grammar.places.compass import AWAY_FROM
 from fieldhand.planning.grammar.places.groups import both
 from fieldhand.planning.grammar.places.numbers import named_trees
+from fieldhand.planning.grammar.places.sampling import bare_points, is_keep_out
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_some, is_row_of_place
 from fieldhand.site.model import Site
@@ -148,12 +149,22 @@ def come_back_to(place: PlaceMeaning, word: Lex, used: int) -> DriveCommand | No
     return DriveCommand(place, used, returns=True, ends=ends) if place.shape == "one" else None
 
 
-@construction("drive: GO way=ALONG where=region", "drive: GO AT where=region", "drive: GO where=region", cost=0.2)
-def drive_along(where: s.Selector, used: int, way: Lex | None = None) -> DriveCommand:
+@construction("drive: word=RETURN [relation] where=region", cost=0.6, given=("site",))
+def end_on_ground(word: Lex, where: s.Selector, used: int, site: Site) -> DriveCommand | None:
+    """Compose "finish at the trough" and "end up in the wet corner"."""
+    middle = bare_points(where, site, 1)
+    ends = bool({"ends_there", "back", "needs_place"} & word.features) or word.text in ("park", "park up")
+    if middle is None or is_keep_out(where, site) or not ends:
+        return None
+    return DriveCommand(PlaceMeaning(middle, "one"), used, returns=True, ends="ends_there" in word.features)
+
+
+@construction("drive: GO way=ALONG where=region", "drive: GO to=AT where=region", "drive: GO where=region", cost=0.2)
+def drive_along(where: s.Selector, used: int, way: Lex | None = None, to: Lex | None = None) -> DriveCommand:
     """Compose "drive along row 3"."""
     place = PlaceMeaning(where, "area")
     if way is None:
-        return DriveCommand(place, used)
+        return DriveCommand(place, used, to=to is not None and not to.features.isdisjoint({"motion", "within"}))
     along: Along = "up" if "upwards" in way.features else "down" if "downwards" in way.features else "along"
     return DriveCommand(place, used, along=along)
 
@@ -296,6 +307,19 @@ def in_any_order(used: int) -> InAnOrder:
     return InAnOrder("any", "", False, used)
 
 
+@construction(
+    "order: INEACHCASE [GO] [AT] [DET] NEAREST [ONE] [NEXTONE] [LEFT]",
+    "order: [GO] [AT] [DET] NEAREST [ONE] [LEFT] NEXTONE",
+    "order: [GO] [AT] [DET] NEAREST [ONE] [LEFT] INEACHCASE",
+    "order: INEACHCASE [GO] [AT] [DET] NEAREST TREE [NEXTONE] [LEFT]",
+    "order: [GO] [AT] [DET] NEAREST TREE [LEFT] NEXTONE",
+    cost=0.1,
+)  # fmt: skip
+def always_the_nearest(used: int) -> InAnOrder:
+    """Compose "always going to the nearest one next"."""
+    return InAnOrder("any", "nearest", False, used)
+
+
 @construction("lead: place=place", cost=1.6)
 def bare_place(place: PlaceMeaning, used: int) -> Lead | None:
     """Compose "tree 4, ..."."""
@@ -323,7 +347,7 @@ def after_the_last(place: PlaceMeaning, word: Lex, used: int) -> Lead | None:
     return Lead(place, used) if last and "after_doing" in word.features else None
 
 
-@construction("lead: TOPIC place=place", cost=0.3)
+@construction("lead: TOPIC place=place", "lead: place=place TOPIC", cost=0.3)
 def topic(place: PlaceMeaning, used: int) -> Lead | None:
     """Compose "our focus is the northern half", of what the next sentences are about."""
     return Lead(place, used, relation="topic") if place.shape in ("one", "several", "area") else None
@@ -377,12 +401,15 @@ def go_home(word: Lex, used: int) -> Home | None:
     return None if {"ends", "needs_place"} & word.features else Home(None, used)
 
 
-@construction("home: RETURN AT marker=marker", "home: RETURN marker=marker", "home: GOHOME AT marker=marker", cost=0.2)
-def return_to(marker: s.Selector, used: int) -> Home | None:
-    """Compose "return to the start"."""
+@construction(
+    "home: word=RETURN AT marker=marker", "home: word=RETURN marker=marker", "home: GOHOME AT marker=marker", cost=0.2
+)
+def return_to(marker: s.Selector, used: int, word: Lex | None = None) -> Home | None:
+    """Compose "return to the start" and "meet me at the end"."""
     if marker.named_marker in ("", "charger"):
         return None
-    return Home("return_to_start" if marker.named_marker == "start" else "return_to_end", used)
+    last = word is not None and "meets" in word.features
+    return Home("return_to_start" if marker.named_marker == "start" else "return_to_end", used, when_done=last)
 
 
 @construction("home: way=home [COMMA] [AND] RATHERTHAN [AT] other=marker", cost=0.2)
@@ -403,6 +430,12 @@ def there_and_not(way: DriveCommand, other: s.Selector, used: int) -> DriveComma
 def home_in_the_end(way: Home, word: Lex, used: int) -> Home | None:
     """Compose "come back when done"."""
     return Home(way.then, used, when_done=True) if "when_done" in word.features else None
+
+
+@construction("drive: way=drive [COMMA] word=THEN", cost=0.3)
+def drive_in_the_end(way: DriveCommand, word: Lex, used: int) -> DriveCommand | None:
+    """Compose "go to the charger at the end"."""
+    return replace(way, used=used) if "when_done" in word.features else None
 
 
 @construction("home: RETURN AT it=IT", cost=0.5)

@@ -7,11 +7,18 @@ from dataclasses import replace
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import (
     BATTERY_TEST,
+    AllTests,
     Amount,
+    CaptureCommand,
+    Connective,
     DriveCommand,
     LimitClause,
+    LinkedCommand,
     RechargeClause,
+    Said,
+    StopCommand,
     Test,
+    When,
 )
 from fieldhand.planning.grammar.words import Lex
 
@@ -248,3 +255,25 @@ def battery_test(check: Lex, level: Amount) -> Test | None:
 def battery_falls(level: Amount) -> Test | None:
     """Compose "the battery falls below 40 %"."""
     return Test(BATTERY_TEST, "le", level.number, "percent") if level.unit == "percent" else None
+
+
+@construction(
+    "given_up: in_case below=low_battery [COMMA] [then] STOP [COMMA] [AND] [then] way=drive",
+    "given_up: STOP AND way=drive in_case below=low_battery",
+    "given_up: way=drive AND STOP in_case below=low_battery",
+    cost=0.1,
+)
+def given_up(below: Amount, way: DriveCommand, used: int) -> tuple[When, DriveCommand] | None:
+    """Compose "if the battery falls below 40 %, leave the rest and drive to the charger"."""
+    low = Test(BATTERY_TEST, "le", below.number, "percent")
+    return (When(AllTests((low,)), used & ~way.used), way) if way.place.shape == "one" else None
+
+
+@construction("said: before=said joint=joint case=given_up", cost=0.1)
+def given_up_below(before: Said, joint: Connective, case: tuple[When, DriveCommand]) -> Said | None:
+    """Compose "... If the battery falls below 40 %, leave the rest and drive to the charger.", of captures."""
+    if not isinstance(before.clauses[-1].command, CaptureCommand):
+        return None
+    when, way = case
+    ends = LinkedCommand(Connective(False, False, 0, both=True), StopCommand(0, stays=True))
+    return Said((*before.clauses, LinkedCommand(joint, when), LinkedCommand(None, way), ends))

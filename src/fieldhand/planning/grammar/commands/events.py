@@ -249,8 +249,10 @@ def lasting(most: Amount) -> Amount | None:
 
 
 @construction(
-    "reacts: first=reacts [COMMA] [AND] STANDSTILL", "reacts: STANDSTILL [COMMA] [AND] first=reacts", cost=0.3
-)
+    "reacts: first=reacts [COMMA] [AND] STANDSTILL", "reacts: STANDSTILL [COMMA] [AND] first=reacts",
+    "reacts: STANDSTILL [DET] WORKN [COMMA] AND first=reacts", "reacts: STANDSTILL WORKV [COMMA] AND first=reacts",
+    cost=0.3,
+)  # fmt: skip
 @construction("reacts: STANDSTILL then [COMMA] first=reacts", cost=0.3)
 def stops_first(first: WatchResponse) -> WatchResponse | None:
     """Compose "stop and wait for 5 minutes"."""
@@ -313,6 +315,36 @@ def then_reacts(first: WatchResponse, second: WatchResponse) -> WatchResponse | 
     if fallback == "wait" or fallback == "skip_row" or fallback == "slow":
         return None
     return replace(first, fallback=fallback)
+
+
+@construction(
+    "lets_by: GIVEWAY on=such [PASSBY]", "lets_by: LETPASS on=such PASSBY", "lets_by: LETPASS on=happens PASSBY",
+    cost=0.1,
+)  # fmt: skip
+def lets_by(on: Conditions) -> Conditions:
+    """Compose "give way to people" and "let people pass"."""
+    return on
+
+
+@construction("command: on=lets_by", "command: on=lets_by [COMMA] [AND] [then] GOON", cost=0.1)
+def waits_for_them(on: Conditions, used: int) -> WatchCommand:
+    """Compose "let people pass", for whom the robot waits."""
+    return WatchCommand(on, WatchResponse("wait", over=True), used)
+
+
+@construction("command: rule=command UNTILOVER", "command: rule=command PASSBY", cost=0.1)
+def watched_until_over(rule: WatchCommand, used: int) -> WatchCommand | None:
+    """Compose "stop for people until they have moved on" and "wait for people to pass"."""
+    if not isinstance(rule, WatchCommand) or rule.during:
+        return None
+    made = until_over(rule.reaction)
+    return None if made is None else replace(rule, reaction=replace(made, stands=False), used=used)
+
+
+@construction("reacts: STANDSTILL [DET] WORKN", "reacts: STANDSTILL [DET] WORKV", cost=0.3)
+def stops_its_work() -> WatchResponse:
+    """Compose "stop the mower"."""
+    return WatchResponse("wait", stands=True)
 
 
 @construction(

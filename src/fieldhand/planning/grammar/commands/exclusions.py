@@ -55,6 +55,19 @@ def place_kept_out(place: PlaceMeaning) -> Excluded | None:
     return Excluded(place) if known and (those or not place.refers_back) else None
 
 
+@construction(
+    "kept_out: first=kept_out [COMMA] OR second=kept_out", "kept_out: first=kept_out [COMMA] NOR second=kept_out",
+    cost=0.1,
+)  # fmt: skip
+def both_kept_out(first: Excluded, second: Excluded) -> Excluded | None:
+    """Compose "the yellow trees or the old ones" of "don't do": both are left out."""
+    one, other = first.place, second.place
+    if one is None or other is None or one.like is not None or other.like is not None:
+        return None
+    parts = s.UnionOf(parts=(*one.selector.members, *other.selector.members))
+    return Excluded(PlaceMeaning(parts, "area" if one.shape == other.shape == "area" else "several"))
+
+
 @construction("kept_out: in_ where=region", cost=0.2)
 def area_kept_out(where: s.Selector) -> Excluded:
     """Compose "in the wet corner" of "..., except in the wet corner"."""
@@ -69,9 +82,15 @@ def kind_kept_out(value: Lex) -> list[Excluded]:
     ]
 
 
-@construction("kept_out: [DET] flag=FLAG ONE", "kept_out: ANY flag=FLAG ONE", cost=0.2)
-def such_kept_out(flag: Lex) -> list[Excluded]:
-    """Compose "the covered ones" of "skip the covered ones"."""
+@construction(
+    "kept_out: [DET] flag=FLAG ONE", "kept_out: ANY flag=FLAG ONE", "kept_out: ANY which_is flag=FLAG",
+    "kept_out: word=DET [ONE] which_is flag=FLAG",
+    cost=0.2,
+)  # fmt: skip
+def such_kept_out(flag: Lex, word: Lex | None = None) -> list[Excluded] | None:
+    """Compose "the covered ones" of "skip the covered ones", and "those that are covered"."""
+    if word is not None and word.features.isdisjoint({"those", "definite"}):
+        return None
     return [
         Excluded(PlaceMeaning(s.Where(attribute=name, test="eq", value=value), "several")) for name, value in flag.value
     ]

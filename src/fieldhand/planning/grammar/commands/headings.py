@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
+from itertools import pairwise
 
+from shapely import Polygon, unary_union
+
+from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import WorkCommand
 from fieldhand.planning.grammar.places.compass import SIDES
+from fieldhand.planning.grammar.places.planted_rows import rows_out_of
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import are_rows, is_one_row
+from fieldhand.planning.selections import are_rows, as_zone
 from fieldhand.site.model import Site
 from fieldhand.task.nodes.work_along import WorkHeading
 
@@ -19,8 +25,10 @@ construction = GRAMMAR.construction
 _LANES: dict[str, WorkHeading] = {
     "north": "north_south", "south": "north_south", "east": "east_west", "west": "east_west",
 }  # fmt: skip
-#: Greatest angle in degrees between rows and a direction along them.
-_ALONG_DEG = 45.0
+#: Greatest angle in degrees between rows and a direction along them, and between lanes that are said to be parallel.
+_ALONG_DEG, _PARALLEL_DEG = 45.0, 3.0
+#: How much longer than wide something is that has a direction.
+_LONG = 4.0
 
 
 @construction("axis: order=ORDERED", "axis: FROM order=ORDERED", cost=0.1)
@@ -51,6 +59,26 @@ def axis_in_one_word(word: Lex) -> WorkHeading:
     return "north_south" if word.text.startswith("n") else "east_west"
 
 
+@construction("axis_along: PARALLEL line=region", cost=0.1, given=("site",))
+def axis_along_line(line: s.Selector, site: Site) -> WorkHeading | None:
+    """Compose "parallel to the fence", which runs from north to south or from east to west."""
+    zone = as_zone(line)
+    parts = [one.polygon for one in site.zones if zone is not None and one.name == zone.zone]
+    rectangle = unary_union(parts).minimum_rotated_rectangle
+    if zone is None or zone.outside or not isinstance(rectangle, Polygon):
+        return None
+    corners = list(rectangle.exterior.coords)[:3]
+    sides = sorted(
+        (math.dist(one, two), math.degrees(math.atan2(two[0] - one[0], two[1] - one[1])))
+        for one, two in pairwise(corners)
+    )
+    if sides[1][0] < _LONG * sides[0][0]:
+        return None
+    off_north = abs((sides[1][1] + 90.0) % 180.0 - 90.0)
+    return "north_south" if off_north <= _PARALLEL_DEG else "east_west" if off_north >= 90.0 - _PARALLEL_DEG else None
+
+
+@construction("lanes: axis=axis_along", cost=0.0)
 @construction(
     "lanes: [WITH] [DET] LANES [RUNS] axis=axis",
     "lanes: AT [DET] LANES [RUNS] axis=axis",
@@ -64,6 +92,7 @@ def axis_in_one_word(word: Lex) -> WorkHeading:
     "lanes: axis=axis [COMMA] TOANDFRO",
     cost=0.1,
 )
+@construction("lanes: AT LANES [RUNS] axis=axis_along", "lanes: [WITH] [DET] LANES [RUNS] axis=axis_along", cost=0.1)
 def lanes(axis: WorkHeading) -> WorkHeading:
     """Compose "with the lanes running east to west" and "up and down, north to south"."""
     return axis
@@ -108,12 +137,21 @@ def work_towards(one: WorkCommand, order: tuple[str, str, bool], used: int, site
     first, _, last = order[0].partition("_to_")
     if one.mode not in ("rows", "aisles") or one.heading != "any" or first not in SIDES or last not in SIDES:
         return None
-    if one.along is None or not are_rows(one.along):
+    if one.along is None or (not are_rows(one.along) and rows_out_of(one.along, site) is None):
         return None
     wanted = 0.0 if last in ("north", "south") else 90.0
     turned = [abs((block.bearing_deg - wanted + 90.0) % 180.0 - 90.0) for block in site.planting.blocks]
     if not turned or max(turned) > _ALONG_DEG:
         return None  # "rows 3 to 8 from west to east" is an order of the rows
-    if not is_one_row(one.along) and "_to_" not in order[0]:
-        return None
     return replace(one, heading=last, used=used)
+
+
+@construction(
+    "work: one=work [COMMA] ONTHEWAY", "work: ONTHEWAY [COMMA] one=work", "work: TURNROUND [COMMA] [AND] one=work",
+    cost=0.1,
+)  # fmt: skip
+def work_on_the_way_back(one: WorkCommand, used: int) -> WorkCommand | None:
+    """Compose "(film row 4 from south to north,) turn round and film row 5 on the way back"."""
+    if one.mode not in ("rows", "aisles") or one.heading != "any" or one.along is None:
+        return None
+    return replace(one, back=True, used=used)

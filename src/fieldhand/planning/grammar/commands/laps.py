@@ -5,15 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from shapely import unary_union
+from shapely.geometry.base import BaseGeometry
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Adjunct
 from fieldhand.planning.grammar.commands.waits import LONGEST_WAIT_S
 from fieldhand.planning.grammar.commands.working import Tract
-from fieldhand.planning.grammar.meaning import Amount, CaptureCommand, Thing, WorkCommand, wait_thing
+from fieldhand.planning.grammar.meaning import THAT_GROUND, Amount, CaptureCommand, Thing, WorkCommand, wait_thing
 from fieldhand.planning.grammar.places.areas import edges
-from fieldhand.planning.grammar.places.sampling import bare_zone, is_keep_out
+from fieldhand.planning.grammar.places.sampling import SamplingPath, bare_zone, is_keep_out
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import are_rows, as_zone
 from fieldhand.site.model import Site
@@ -23,6 +24,8 @@ construction = GRAMMAR.construction
 
 #: Greatest part of the ground inside of a fence that the fence takes up, and least part of the site that is inside.
 _THIN, _NEARLY = 0.1, 0.8
+#: Half of the greatest width of a fence or wall in metres.
+_HALF_A_FENCE_M = 0.4
 #: Maximum number of laps, and of captures with a rest between them.
 _MOST_LAPS, _MOST_RESTED = 100, 50
 
@@ -63,21 +66,49 @@ def along_fence(fence: s.Selector, site: Site) -> Tract | None:
     return Tract(fence, "perimeter") if is_keep_out(fence, site) else None
 
 
+@construction("edge: fence=region", cost=0.2, given=("site",))
+def fence_itself(fence: s.Selector, site: Site) -> Tract | None:
+    """Compose "the deer fence" of "film the deer fence", along which the robot drives, and "the pond"."""
+    return Tract(fence, "perimeter", solid=not is_thin(fence, site)) if is_keep_out(fence, site) else None
+
+
+@construction("work: one=work [COMMA] AROUND", cost=0.2)
+def all_the_way_round(one: WorkCommand, used: int) -> WorkCommand | None:
+    """Compose "film the deer fence all the way round"."""
+    return replace(one, used=used) if one.along is None or one.mode == "perimeter" else None
+
+
+@construction("work: one=work [COMMA] EDGEIN", "work: one=work [COMMA] out=EDGEOUT", cost=0.2)
+def on_one_side_of_edge(one: WorkCommand, used: int, out: Lex | None = None) -> WorkCommand | None:
+    """Compose "film the deer fence from the inside"."""
+    known = not one.edge_side and (one.along is None or one.mode == "perimeter")
+    return replace(one, edge_side="inside" if out is None else "outside", used=used) if known else None
+
+
 @construction(
-    "edge: [AROUND] INSIDE fence=region", "edge: [AROUND] ALONG INSIDE fence=region", cost=0.2, given=("site",)
+    "edge: [AROUND] INSIDE fence=region", "edge: [AROUND] ALONG [DET] INSIDE fence=region", cost=0.2, given=("site",)
 )
 def inside_fence(fence: s.Selector, site: Site) -> Tract | None:
     """Compose "just inside the deer fence", which stands around the site; a pond has no such side."""
-    return Tract(fence, "perimeter") if is_keep_out(fence, site) and _goes_around(fence, site) else None
+    return Tract(fence, "perimeter") if is_keep_out(fence, site) and goes_around(fence, site) else None
 
 
-def _goes_around(fence: s.Selector, site: Site) -> bool:
+def goes_around(fence: s.Selector, site: Site) -> bool:
     """Return True for what is thin and stands around nearly the whole site."""
-    zone = as_zone(fence)
-    own = unary_union([one.polygon for one in site.zones if zone is not None and one.name == zone.zone])
+    own = _ground_of(fence, site)
     whole = unary_union([one.polygon for one in site.zones if one.kind == "boundary"])
     around = own.convex_hull.area
     return own.area < _THIN * around and around >= _NEARLY * whole.area > 0.0
+
+
+def is_thin(fence: s.Selector, site: Site) -> bool:
+    """Return True for a fence or a wall, which has ground on both of its sides."""
+    return bool(_ground_of(fence, site).buffer(-_HALF_A_FENCE_M).is_empty)
+
+
+def _ground_of(fence: s.Selector, site: Site) -> BaseGeometry:
+    zone = as_zone(fence)
+    return unary_union([one.polygon for one in site.zones if zone is not None and one.name == zone.zone])
 
 
 @construction("work: [TAKE] times=laps where=lapped", "work: GO [FOR] times=laps where=lapped", cost=0.2)
@@ -102,6 +133,38 @@ def once_around(
     if where is not None and are_rows(where):
         return None
     return _driven(line or where or s.Trees(), times, used)
+
+
+@construction(
+    "work: verb=WORKV times=laps where=lapped", "work: verb=WORKV times=often [COMMA] where=edge",
+    "work: verb=WORKV [DET] STRIP where=lapped", cost=0.1,
+)  # fmt: skip
+def worked_in_laps(verb: Lex, used: int, times: int = 1, where: s.Selector | Tract | None = None) -> WorkCommand | None:
+    """Compose "mow two laps around the paddock", "mow once along the fence" and "mow a strip around the pond"."""
+    along = where.selector if isinstance(where, Tract) else where
+    made = None if along is None else _driven(along, times, used)
+    return None if made is None else replace(made, action=verb.value)
+
+
+@construction("circled: CIRCLEV where=region", "circled: CIRCLEV IT", "circled: GO AROUND IT", cost=0.1)
+def circled(where: s.Selector | None = None) -> s.Selector | None:
+    """Compose "circle the pond" and "drive round it"."""
+    known = where is None or not (are_rows(where) or where == edges())
+    return (where or s.InZone(zone=THAT_GROUND)) if known else None
+
+
+@construction("work: where=circled", "work: GO times=often AROUND it=IT", cost=0.1)
+def circles(used: int, where: s.Selector | None = None, times: int = 1, it: Lex | None = None) -> WorkCommand | None:
+    """Compose "circle the pond" by itself, and "drive twice round it"."""
+    del it
+    return _driven(where or s.InZone(zone=THAT_GROUND), times, used)
+
+
+@construction("path_over: where=circled [ONCE]", "path_over: GO ONCE AROUND it=IT", "path_over: AROUND it=IT", cost=0.2)
+def on_the_round(where: s.Selector | None = None, it: Lex | None = None) -> tuple[SamplingPath, s.Selector | None]:
+    """Compose "circle it once", of captures on the way."""
+    del it
+    return SamplingPath("edge", 1), where or s.InZone(zone=THAT_GROUND)
 
 
 def _driven(where: s.Selector, times: int, used: int) -> WorkCommand | None:

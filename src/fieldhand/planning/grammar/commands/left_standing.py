@@ -8,9 +8,11 @@ from dataclasses import dataclass, replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import CaptureCommand, Command, Connective, LinkedCommand, Said, WorkCommand
+from fieldhand.planning.grammar.places.planted_rows import rows_out_of
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import are_rows
+from fieldhand.planning.selections import are_rows, as_excluding
 from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -40,12 +42,40 @@ def spared(where: s.Selector) -> s.Selector:
 
 
 @construction(
+    "spared: [DET] flag=FLAG ONE", "spared: ANY which_is flag=FLAG", "spared: word=DET [ONE] which_is flag=FLAG",
+    "spared: ANY flag=FLAG ONE",
+    cost=0.1, given=("site",),
+)  # fmt: skip
+def such_rows_spared(flag: Lex, site: Site, word: Lex | None = None) -> list[s.Selector] | None:
+    """Compose "those that are covered" of "spray all beds except those that are covered"."""
+    if word is not None and word.features.isdisjoint({"those", "definite"}):
+        return None
+    kinds = [s.Where(attribute=name, test="eq", value=value) for name, value in flag.value]
+    rows = [rows_out_of(kind, site) for kind in kinds]
+    return [row for row in rows if row is not None] or None
+
+
+@construction(
+    "spared: first=spared [COMMA] AND second=spared", "spared: first=spared COMMA second=spared",
+    "spared: first=spared [COMMA] OR second=spared", "spared: first=spared [COMMA] NOR second=spared",
+    cost=0.1,
+)  # fmt: skip
+def both_spared(first: s.Selector, second: s.Selector) -> s.Selector | None:
+    """Compose "the wet corner or the slope" behind "do not mow"."""
+    return s.UnionOf(parts=(*first.members, *second.members)) if are_rows(first) == are_rows(second) else None
+
+
+@construction(
     "left_standing: LEAVE where=spared ALONE",
     "left_standing: LEAVE where=spared UNTOUCHED",
     "left_standing: LEAVE word=UNCUT where=spared",
     "left_standing: LEAVE where=spared word=UNCUT",
     "left_standing: LEAVEOUT where=spared",
     "left_standing: EXCEPT where=spared",
+    "left_standing: BUT [NOT] where=spared",
+    "left_standing: [BUT] NEITHER where=spared",
+    "left_standing: WITHOUT where=spared",
+    "left_standing: NOT where=spared",
     "left_standing: where=spared LEFTOUT",
     "left_standing: WITHOUT verb=WORKV where=spared",
     "left_standing: WITHOUT TOUCHING where=spared",
@@ -95,5 +125,7 @@ def _without(command: Command, out: LeftStanding, robot: RobotProfile) -> WorkCo
         return None
     if command.mode not in ("area", "rows") or are_rows(out.where) != (command.mode == "rows"):
         return None
-    rest = s.Excluding(places=out.where, of=command.along)
+    before = as_excluding(command.along)
+    places = out.where if before is None else s.UnionOf(parts=(*before.places.members, *out.where.members))
+    rest = s.Excluding(places=places, of=command.along if before is None else before.of)
     return replace(command, along=rest, used=command.used | out.used)

@@ -184,6 +184,9 @@ def at_least(check: Lex, least: Amount) -> Amount | None:
     "low_battery: [DET] BATTERY [IS] check=CMP least=amount",
     "low_battery: [DET] BATTERY REACHES least=amount",
     "low_battery: [DET] BATTERY GOUNDER least=amount",
+    "low_battery: check=CMP least=amount of_what [IS] LEFT",
+    "low_battery: THEREIS check=CMP least=amount [of_what] LEFT [of_what]",
+    "low_battery: THEREIS check=CMP least=amount of_what",
     cost=0.1,
 )
 def low_battery(least: Amount, check: Lex | None = None) -> Amount | None:
@@ -321,6 +324,9 @@ def at_word() -> str:
     "visit_limit: NEVERMORE n=count READING",
     "visit_limit: NEVERMORE n=count TREE",
     "visit_limit: NEVERMORE n=count POINT",
+    "visit_limit: NEVERMORE n=count TOPS",
+    "visit_limit: NEVERMORE n=count READING TOPS",
+    "visit_limit: NEVERMORE n=count POINT TOPS",
     "visit_limit: check=CMP n=count",
     "visit_limit: check=CMP n=count READING",
     "visit_limit: check=CMP n=count TREE",
@@ -333,7 +339,10 @@ def at_word() -> str:
     "visit_limit: check=UPTO n=count READING",
     "visit_limit: check=UPTO n=count TIMES",
     "visit_limit: check=CMP n=count OFTHEM",
-    "visit_limit: STOP word=THEN n=count TREE",
+    "visit_limit: STOP word=THEN n=count [TREE] [TOPS]",
+    "visit_limit: STOP word=THEN n=count READING [TOPS]",
+    "visit_limit: STOP word=THEN n=count POINT [TOPS]",
+    "visit_limit: STOP word=THEN n=count OFTHEM [TOPS]",
     cost=0.5,
 )
 def visits_at_most(n: int, used: int, word: Lex | None = None, check: Lex | None = None) -> VisitLimit | None:
@@ -346,6 +355,18 @@ def visits_at_most(n: int, used: int, word: Lex | None = None, check: Lex | None
 
 
 @construction(
+    "visit_limit: VISIT limit=visit_limit",
+    "visit_limit: TAKE limit=visit_limit",
+    "visit_limit: MEASURE limit=visit_limit",
+    "visit_limit: WHODOES limit=visit_limit",
+    cost=0.0,
+)
+def visiting_at_most(limit: VisitLimit, used: int) -> VisitLimit | None:
+    """Compose "visit no more than ten plants" behind what is done at them."""
+    return None if limit.count is None else replace(limit, used=used)
+
+
+@construction(
     "visit_limit: ASMANY as_can [COMMA] [AND] [NOTMORE]", "visit_limit: HOWEVERMANY as_can [COMMA] [NOTMORE]", cost=0.5
 )
 def as_many_of_them(used: int) -> VisitLimit:
@@ -353,18 +374,18 @@ def as_many_of_them(used: int) -> VisitLimit:
     return VisitLimit(None, used)
 
 
-@construction("place: ASMANY [OF] [OTHER] whole=place", cost=2.0)
+@construction("place: ASMANY [OF] [other=OTHER] whole=place", cost=2.0)
 @construction(
     "place: ASMANY as_can OF whole=place",
-    "place: ASMANY [OF] [OTHER] whole=place as_can",
+    "place: ASMANY [OF] [other=OTHER] whole=place as_can",
     "place: HOWEVERMANY [OF] whole=place as_can",
     cost=0.3,
 )
-def as_many_of(whole: PlaceMeaning) -> PlaceMeaning | None:
+def as_many_of(whole: PlaceMeaning, other: Lex | None = None) -> PlaceMeaning | None:
     """Compose "as many as you can of trees 4 to 9", "as many different trees as possible" and "however many fit"."""
     if whole.shape not in ("several", "area") or whole.per is not None or whole.optional or whole.at_most is not None:
         return None
-    if are_unvisited(whole.selector):
+    if are_unvisited(whole.selector) or (other is not None and "others" in other.features):
         return None
     chosen = whole.vague or as_top(whole.selector) is not None  # "of the 30 oldest trees"
     if whole.count is not None and not chosen and not all(one.named_tree for one in whole.selector.members):

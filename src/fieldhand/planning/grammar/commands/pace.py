@@ -37,7 +37,7 @@ def at_speed(speed: Amount, word: Lex | None = None) -> PaceClause | None:  # no
     "manner: AT UPTO speed=amount",
     "manner: NOFASTER speed=amount",
     "manner: NOFASTER less speed=amount",
-    "manner: speed=amount TOPS",
+    "manner: [AT] speed=amount TOPS",
     "manner: speed=amount [COMMA] [AND] NOTMORE",
     "manner: WITHOUT GO check=CMP speed=amount",
     "manner: AT [DET] SPEED less speed=amount",

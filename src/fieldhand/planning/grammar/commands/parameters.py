@@ -11,6 +11,7 @@ from fieldhand.planning.grammar.meaning import (
     DEFAULT_VALUE,
     LAST_THING,
     SAME_VALUE,
+    UNSAID_THING,
     Amount,
     CaptureCommand,
     DriveCommand,
@@ -20,7 +21,6 @@ from fieldhand.planning.grammar.meaning import (
     LimitClause,
     LinkedCommand,
     ParameterValue,
-    PlaceMeaning,
     Said,
     StopCommand,
     Thing,
@@ -70,6 +70,8 @@ def parameter(amount: Amount, word: Lex | None = None, name: Lex | None = None) 
     "setting: [DET] name=PARAMETER SHOULD amount=amount",
     "setting: [WITH] [DET] name=PARAMETER [COMMA] [OF] [DET] choice=CHOICE",
     "setting: [WITH] [DET] choice=CHOICE [DASH] name=PARAMETER",
+    "setting: USE [DET] choice=CHOICE [DASH] name=PARAMETER",
+    "setting: in_ [DET] choice=CHOICE [DASH] name=PARAMETER",
     "setting: word=AT [DET] DEFAULTWORD name=PARAMETER",
     "setting: [WITH] [DET] DEFAULTWORD name=PARAMETER",
     "setting: how=setting REMAINS",
@@ -89,6 +91,19 @@ def setting(
     if choice is not None:
         return [value for value in chosen(choice) if value.names[0] in names] or None
     return [ParameterValue(amount.number, amount.unit, names) if amount else ParameterValue(DEFAULT_VALUE, "", names)]
+
+
+@construction(
+    "pushed: PUSHPROBE [PROBEDOWN] amount=amount",
+    "pushed: PUSHPROBE amount=amount DOWNTO",
+    "pushed: PUSHPROBE amount=amount name=PARAMETER",
+    "pushed: PUSHPROBE [PROBEDOWN] [DET] name=PARAMETER OF amount=amount",
+    cost=0.1,
+)
+def pushed(amount: Amount, name: Lex | None = None) -> ParameterValue | None:
+    """Compose "push the probe down to 25 cm"."""
+    names = () if name is None else tuple(name.value)
+    return ParameterValue(amount.number, amount.unit, names) if amount.unit == "metres" else None
 
 
 @construction("parameter: how=setting", cost=0.1)
@@ -142,6 +157,18 @@ def another_of(how: ParameterValue, robot: RobotProfile, n: int = 1, other: Lex 
     return [one for one in made if one is not None] or None
 
 
+@construction(
+    "thing: [DET] choice=CHOICE [DASH] name=PARAMETER", "thing: n=count choice=CHOICE [DASH] name=PARAMETER",
+    cost=0.6, given=("robot",),
+)  # fmt: skip
+def view_of(choice: Lex, name: Lex, robot: RobotProfile, n: int | None = None) -> list[Thing] | None:
+    """Compose "a trunk view" as what is taken."""
+    values = [value for value in chosen(choice) if value.names[0] in name.value]
+    things = [Thing(action.name, count=n, plural=name.plural) for action in robot.actions]
+    made = [with_parameter(one, value, robot) for one in things for value in values]
+    return [one for one in made if one is not None] or None
+
+
 @construction("capture: how=parameter", cost=1.5, given=("robot",))
 @construction("capture: AGAIN how=parameter", "capture: how=parameter AGAIN", cost=0.6, given=("robot",))
 def again_with(how: ParameterValue, used: int, robot: RobotProfile) -> list[CaptureCommand] | None:
@@ -159,6 +186,15 @@ def another_with(how: ParameterValue, robot: RobotProfile) -> list[Thing] | None
     return [Thing(LAST_THING, count=1, parameters=parameters) for parameters in fitting] or None
 
 
+def _with_value(thing: Thing, value: ParameterValue, robot: RobotProfile) -> Thing | None:
+    """Return a capture with a parameter; one that refers to the last one with that of the actions that have it."""
+    if thing.action != LAST_THING:
+        return with_parameter(thing, value, robot)
+    made = [with_parameter(replace(thing, action=action.name), value, robot) for action in robot.actions]
+    fitting = {one.parameters for one in made if one is not None}
+    return replace(thing, parameters=fitting.pop()) if len(fitting) == 1 else None
+
+
 @construction("NOUN: choice=CHOICE [DASH] [name=PARAMETER] noun=NOUN", cost=0.1, given=("robot",))
 def noun_of(choice: Lex, noun: Lex, robot: RobotProfile, name: Lex | None = None) -> list[Lex] | None:
     """Compose "trunk photos" and "ground-view photograph"."""
@@ -173,23 +209,8 @@ def noun_of(choice: Lex, noun: Lex, robot: RobotProfile, name: Lex | None = None
 
 
 @construction(
-    "capture: verb=ACTV how=parameter relation place=place",
-    "capture: verb=ACTV how=parameter",
-    cost=0.3,
-    given=("robot",),
-)
-def act_on_part(
-    verb: Lex, how: ParameterValue, used: int, robot: RobotProfile, place: PlaceMeaning | None = None
-) -> CaptureCommand | None:
-    """Compose "photograph the trunk of tree 4"."""
-    made = with_parameter(Thing(verb.value.actions[0]), how, robot)
-    return (
-        None if made is None or not isinstance(how.value, str) else CaptureCommand((made,), place, used, relation="of")
-    )
-
-
-@construction(
     "capture: said=capture [COMMA] how=parameter",
+    "capture: said=capture [COMMA] [AND] THISTIME how=parameter",
     "capture: said=capture [COMMA] named=setting",
     "capture: said=capture COMMA INEACH how=parameter",
     "capture: said=capture FULLSTOP INEACH how=parameter",
@@ -198,6 +219,7 @@ def act_on_part(
     "capture: said=capture AND how=parameter",
     "capture: how=parameter COMMA said=capture",
     "capture: said=capture COMMA amount=amount",
+    "capture: said=capture [COMMA] [AND] THISTIME amount=amount",
     cost=0.5,
     given=("robot",),
 )
@@ -213,7 +235,7 @@ def capture_with(
     value = named or (how if amount is None else ParameterValue(amount.number, amount.unit, ()))
     if value is None or (named is None and isinstance(value.value, str) and value.value not in _NO_CHOICES):
         return None
-    made = tuple(with_parameter(one, value, robot) for one in said.things)
+    made = tuple(_with_value(one, value, robot) for one in said.things)
     if all(one is None for one in made):
         return None
     things = tuple(one if new is None else new for one, new in zip(said.things, made, strict=True))
@@ -223,6 +245,8 @@ def capture_with(
 @construction(
     "said: before=said FULLSTOP how=setting",
     "said: before=said COMMA how=setting",
+    "said: before=said [COMMA] [AND] how=pushed",
+    "said: before=said FULLSTOP how=pushed",
     "said: how=setting FULLSTOP before=said",
     cost=0.3,
     given=("robot",),
@@ -230,6 +254,7 @@ def capture_with(
 def setting_of_all(before: Said, how: ParameterValue, used: int, robot: RobotProfile) -> list[Said] | None:
     """Compose "moisture at trees 4 and 9. Depth: 10 cm.", of all captures that have the parameter or of the last."""
     own, made = used, dict[int, LinkedCommand]()
+    unsaid = [number for number, one in enumerate(before.clauses) if _is_unsaid(one)]
     for clause in before.clauses:
         if not isinstance(clause.command, _PLAIN):
             return None
@@ -239,11 +264,32 @@ def setting_of_all(before: Said, how: ParameterValue, used: int, robot: RobotPro
         if isinstance(command, CaptureCommand):
             changed = capture_with(command, command.used, robot, named=how)
             made |= {} if changed is None else {number: replace(clause, command=changed)}
+    if unsaid and not made:
+        return _each_probed_so(before, unsaid[-1], how, own, robot)
     if made:
         last = made[max(made)]
         made[max(made)] = replace(last, command=replace(last.command, used=last.command.used | own))
     ways = (made, {max(made): made[max(made)]}) if len(made) > 1 else (made,) if made else ()
     return [Said(tuple(way.get(k, clause) for k, clause in enumerate(before.clauses))) for way in ways]
+
+
+def _is_unsaid(clause: LinkedCommand) -> bool:
+    """Return True for a capture that its command does not name ("check tree 4")."""
+    command = clause.command
+    return isinstance(command, CaptureCommand) and [one.action for one in command.things] == [UNSAID_THING]
+
+
+def _each_probed_so(before: Said, number: int, how: ParameterValue, own: int, robot: RobotProfile) -> list[Said]:
+    """Return commands with each capture that has such a parameter for the one that is not named."""
+    found: list[Said] = []
+    clause = before.clauses[number]
+    command = clause.command
+    for action in robot.actions if isinstance(command, CaptureCommand) else ():
+        made = with_parameter(replace(command.things[0], action=action.name, verb=""), how, robot)
+        if made is not None:
+            one = replace(clause, command=replace(command, things=(made,), used=command.used | own))
+            found.append(Said((*before.clauses[:number], one, *before.clauses[number + 1 :])))
+    return found
 
 
 @construction(
@@ -378,6 +424,8 @@ def with_parameter(thing: Thing, value: ParameterValue, robot: RobotProfile) -> 
     if value.value == DEFAULT_VALUE and action is not None:
         known = {parameter.name for parameter in action.parameters} & {*value.names}
         return thing if known and not known & taken else None
+    if len(fitting) == 1 and isinstance(value.value, str) and fitting[0] in thing.parameters:
+        return thing  # "the trunk ..., using the trunk view"
     if len(fitting) != 1 or fitting[0][0] in taken:
         return None
     return replace(thing, parameters=(*thing.parameters, fitting[0]))

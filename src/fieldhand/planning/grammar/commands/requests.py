@@ -41,8 +41,10 @@ from fieldhand.planning.grammar.meaning import (
     UntilCondition,
     WayRule,
     When,
+    WorkCommand,
 )
 from fieldhand.planning.grammar.places.numbers import named_trees
+from fieldhand.planning.grammar.places.sampling import bare_zone
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_excluding, named_places, swapped
 from fieldhand.site.model import Site
@@ -126,6 +128,15 @@ def then_joint(used: int, then: str, before: Lex | None = None, both: Lex | None
     """Compose "and then"; "from there" alone begins a sentence."""
     from_here = then == "from here"
     return Connective(from_here and before is None and both is None, True, used, from_here=from_here)
+
+
+@construction(
+    "joint: [COMMA] and_or_but [COMMA] AFTEREACH [COMMA]", "joint: COMMA AFTEREACH [COMMA]",
+    "joint: [COMMA] and_or_but [COMMA] INEACHCASE [COMMA]", cost=0.1,
+)  # fmt: skip
+def after_each(used: int) -> Connective:
+    """Compose "and after each one", before the place opposite it."""
+    return Connective(False, False, used, both=True, each=True)
 
 
 @construction("joint: FULLSTOP [and_or_but]", cost=0.1)
@@ -226,17 +237,19 @@ def in_turn_there(one: CaptureCommand, used: int, word: Lex | None = None) -> In
 )
 def corrects(word: Lex | None = None) -> str | None:
     """Compose "no, wait,"; "no tree 5" corrects nothing."""
-    return None if word is not None and "negates" in word.features else "no"
+    if word is None:
+        return "no"
+    return None if "negates" in word.features else word.text
 
 
 @construction(
-    "command: corrects place=place",
-    "command: corrects relation place=place",
+    "command: corrects=corrects place=place",
+    "command: corrects=corrects relation=relation place=place",
     cost=0.2,
 )
-def correction(place: PlaceMeaning, used: int) -> Correction:
-    """Compose "no wait, tree 9"."""
-    return Correction(place, used)
+def correction(place: PlaceMeaning, used: int, corrects: str, relation: str = "") -> Correction | None:
+    """Compose "no wait, tree 9"; "wait at tree 9" asks to wait there."""
+    return None if relation and corrects == "wait" else Correction(place, used)
 
 
 @construction("scratched: SCRATCH place=place", "scratched: SCRATCH trees=numbers", cost=0.1, given=("site",))
@@ -292,13 +305,15 @@ def comes_first(place: PlaceMeaning, used: int, second: PlaceMeaning | None = No
 @construction("said: last=home COMMA rest=said", "said: last=home FULLSTOP rest=said", cost=0.2)
 def home_when_done(last: Home, rest: Said) -> Said | None:
     """Compose "come back when done: photograph tree 4"."""
-    return Said((*rest.clauses, LinkedCommand(None, last))) if last.when_done else None
+    then = rest.clauses[0].before is not None and rest.clauses[0].before.then  # "meet me at the start, then ..."
+    return Said((*rest.clauses, LinkedCommand(None, last))) if last.when_done and not then else None
 
 
 @construction("said: last=drive COMMA rest=said", "said: last=drive FULLSTOP rest=said", cost=0.2)
 def ending_there(last: DriveCommand, rest: Said) -> Said | None:
     """Compose "finish at the charger: photograph tree 4"."""
-    return Said((*rest.clauses, LinkedCommand(None, last))) if last.ends else None
+    then = rest.clauses[0].before is not None and rest.clauses[0].before.then
+    return Said((*rest.clauses, LinkedCommand(None, last))) if last.ends and not then else None
 
 
 @construction("joint: word=BEFORE", cost=0.3)
@@ -388,17 +403,40 @@ def done_there(act: CaptureCommand, place: PlaceMeaning, used: int) -> CaptureCo
     return replace(act, place=place, used=used, relation=relation) if known and act.spacing is None else None
 
 
+@construction("in_the_end: one=capture [COMMA] word=THEN", cost=0.1)
+def in_the_end(one: CaptureCommand, word: Lex, used: int) -> CaptureCommand | None:
+    """Compose "photograph it afterwards", behind something else."""
+    done = "when_done" in word.features and "before_doing" not in word.features
+    return replace(one, used=used) if done else None
+
+
+@construction("said: before=said joint=joint one=in_the_end", cost=0.2)
+def captured_afterwards(before: Said, joint: Connective, one: CaptureCommand) -> Said:
+    """Compose "... and photograph it afterwards", as it comes next anyway."""
+    return Said((*before.clauses, LinkedCommand(joint, one)))
+
+
+@construction("capture: one=capture [COMMA] THISTIME", "capture: THISTIME [COMMA] one=capture", cost=0.2)
+def captured_this_time(one: CaptureCommand, used: int) -> CaptureCommand:
+    """Compose "this time photograph it"."""
+    return replace(one, used=used)
+
+
 @construction("capture: TAKE INSTEAD things=things [relation] [place=place]", cost=0.4)
 def take_instead(things: tuple[Thing, ...], used: int, place: PlaceMeaning | None = None) -> CaptureCommand:
     """Compose "take instead a picture", in another case."""
     return CaptureCommand(things, place, used, instead=True)
 
 
-@construction("capture: things=things OF place=place", cost=1.2)
-def another_of_each(things: tuple[Thing, ...], place: PlaceMeaning, used: int) -> CaptureCommand | None:
-    """Compose "(and then) one of the tree on each side of it"."""
+@construction("capture: things=things OF place=place", "capture: ONE OF place=place", cost=1.2, given=("site",))
+def another_of_each(
+    place: PlaceMeaning, used: int, site: Site, things: tuple[Thing, ...] = (Thing(LAST_THING, count=1),)
+) -> CaptureCommand | None:
+    """Compose "(and then) one of the tree on each side of it" and "(followed by) one of the trough"."""
     one_more = [(one.action, one.count) for one in things] == [(LAST_THING, 1)]
-    return CaptureCommand(things, place, used, relation="of") if one_more and place.each else None
+    free = bool(bare_zone(place.selector, site)) if place.shape == "area" else place.shape == "one"
+    named = free and not place.refers_back and (place.shape == "area" or place.selector.named_tree)
+    return CaptureCommand(things, place, used, relation="of") if one_more and (place.each or named) else None
 
 
 @construction("thing: DET SAME reading=READING", cost=0.5)
@@ -486,10 +524,11 @@ def first_of_all(first: Connective, one: Command) -> Said:
     return Said((LinkedCommand(first, one),))
 
 
-@construction("said: one=capture FIRSTONE", "said: one=drive FIRSTONE", cost=0.2)
-def what_is_first(one: CaptureCommand | DriveCommand, used: int) -> Said | None:
+@construction("said: one=capture FIRSTONE", "said: one=drive FIRSTONE", "said: one=work FIRSTONE", cost=0.2)
+def what_is_first(one: CaptureCommand | DriveCommand | WorkCommand, used: int) -> Said | None:
     """Compose "photograph tree 4 first"; "photograph trees 4 and 9, tree 9 first" is an order."""
-    places = () if one.place is None else named_places(one.place.selector)
+    where = one.along if isinstance(one, WorkCommand) else None if one.place is None else one.place.selector
+    places = () if where is None else named_places(where)
     if len(set(places)) < len(places):
         return None
     return Said((LinkedCommand(Connective(False, True, used & ~one.used), one),))
@@ -507,6 +546,12 @@ def first_captured(before: Said, joint: Connective, tests: AllTests, act: Captur
 def first_command(one: Command) -> Said:
     """Compose "take a picture"."""
     return Said((LinkedCommand(None, one),))
+
+
+@construction("said: WITH one=capture", cost=0.6)
+def begins_with(one: CaptureCommand, used: int) -> Said:
+    """Compose "(start at sunrise) with a picture of tree 4", of which the time is read by itself."""
+    return Said((LinkedCommand(None, replace(one, used=used)),))
 
 
 @construction(
@@ -591,6 +636,24 @@ def without_joint(before: Said, one: Command) -> Said | None:
         case _:
             follows = True
     return Said((*before.clauses, LinkedCommand(None, one))) if follows else None
+
+
+@construction(
+    "elsewhere: [ONLY] WITH place=place",
+    "elsewhere: WITH [ONLY] place=place",
+    "elsewhere: [ONLY] WITH place=place ONLY",
+    cost=0.1,
+)
+def elsewhere(place: PlaceMeaning, used: int) -> Again:
+    """Compose "only with its two neighbours", in another case."""
+    return Again(place, used)
+
+
+@construction("said: before=said [COMMA] one=elsewhere", cost=0.3)
+def goes_on_elsewhere(before: Said, one: Again) -> Said | None:
+    """Compose "(continue with all plants of the row,) otherwise only with its two neighbours"."""
+    otherwise = isinstance(before.clauses[-1].command, Otherwise)
+    return Said((*before.clauses, LinkedCommand(None, one))) if otherwise else None
 
 
 @construction(

@@ -8,7 +8,16 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Adjunct, once
 from fieldhand.planning.grammar.meaning import CaptureCommand, PlaceMeaning, Thing
-from fieldhand.planning.grammar.places.sampling import SamplingPath, grid_selector, is_on_bare_ground
+from fieldhand.planning.grammar.places.points import Points, points_on
+from fieldhand.planning.grammar.places.sampling import (
+    SamplingPath,
+    bare_ground,
+    grid_selector,
+    is_on_bare_ground,
+    laid_over,
+    some_points,
+)
+from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_some, as_zone, chooses_from_trees, over
 from fieldhand.site.model import Site
 
@@ -89,6 +98,17 @@ def _at(command: CaptureCommand, selector: s.Selector | None, count: int | None)
 def along_path(along: tuple[SamplingPath, s.Selector | None], site: Site) -> Adjunct:
     """Compose "in a W through the north block", of so many samples."""
     return Adjunct(_along, _Route(*along, site), may_lead=True, late=True, lays_out=True)
+
+
+@construction("adjunct: ONPATH", "adjunct: ONTHEWAY", cost=0.2)
+def on_path() -> Adjunct:
+    """Compose "on it" behind the samples of a path."""
+    return Adjunct(_on_path, late=True)
+
+
+def _on_path(command: CaptureCommand, _: None) -> CaptureCommand | None:
+    shape = "" if command.place is None else getattr(command.place.selector, "shape", "")
+    return command if shape else None
 
 
 @construction("adjunct: on=grid_over", cost=0.2, given=("site",))
@@ -180,6 +200,105 @@ def captured_on_grid(
     return _at(CaptureCommand(things, None, used), grid_selector(every, where, site), None)
 
 
+@construction("open_points: points=points", "open_points: POINT gap=apart", cost=0.0)
+def open_points(points: Points | None = None, gap: float = 0.0) -> Points | float | None:
+    """Compose "ten random spots" and "points 30 m apart" of ground that is named elsewhere."""
+    return gap if points is None else points if points.where is None else None
+
+
+@dataclass(frozen=True, slots=True)
+class _Laid:
+    """Points without their ground, or the side of the cells of a grid."""
+
+    points: Points | float
+    site: Site = field(compare=False)
+
+
+@construction("adjunct: AT points=points", cost=0.2)
+def as_many_points_as_captures(points: Points) -> Adjunct | None:
+    """Compose "(eight readings) at spots distributed evenly over the slope"."""
+    return Adjunct(_as_many_points, points) if points.where is not None and points.count is None else None
+
+
+def _as_many_points(command: CaptureCommand, points: Points) -> CaptureCommand | None:
+    counts = {one.count for one in command.things}
+    count = counts.pop() if len(counts) == 1 else None
+    if command.place is not None or points.where is None or count is None or count < 2:
+        return None
+    there = points_on(points.where, count, random=points.random)
+    return replace(command, things=once(command.things), place=there, relation="at")
+
+
+@construction("adjunct: AT points=open_points", cost=0.2, given=("site",))
+def at_points(points: Points | float, site: Site) -> Adjunct:
+    """Compose "at ten random spots" behind the ground on which they are."""
+    return Adjunct(_at_points, _Laid(points, site), of_place=True, is_sentence=True)
+
+
+def _at_points(command: CaptureCommand, laid: _Laid) -> CaptureCommand | None:
+    place, points = command.place, laid.points
+    if place is None or place.shape != "area" or place.per is not None or command.spacing is not None:
+        return None
+    counts = {one.count for one in command.things}
+    if not isinstance(points, Points):
+        free = bare_ground(place.selector, laid.site) is not None and counts <= {None, 1}
+        return _at(command, grid_selector(points, place.selector, laid.site), None) if free else None
+    own = counts.pop() if len(counts) == 1 else None
+    if not (points.random or points.even or bare_ground(place.selector, laid.site) is not None):
+        return None
+    if None not in (own, points.count) and own not in (1, points.count):
+        return None
+    number = points.count or own or 0
+    if number < 2:
+        return None
+    return _at(command, some_points(place.selector, laid.site, number, random=points.random), number)
+
+
+@construction(
+    "fronted: word=AT where=region [COMMA]",
+    "fronted: OVER where=region [COMMA]",
+    "fronted: INSIDE where=region [COMMA]",
+    cost=0.1,
+)
+def fronted(where: s.Selector, word: Lex | None = None) -> s.Selector | None:
+    """Compose "over the paddock," before what is done there."""
+    return where if word is None or "within" in word.features else None
+
+
+@construction("capture: where=fronted act=capture", cost=0.2, given=("site",))
+def captured_over(where: s.Selector, act: CaptureCommand, used: int, site: Site) -> CaptureCommand | None:
+    """Compose "over the paddock, test the soil moisture on a 30 m grid"."""
+    place = act.place
+    if place is None or place.shape != "several" or act.spacing is not None:
+        return None
+    made = laid_over(place.selector, where, site)
+    return None if made is None else replace(act, place=replace(place, selector=made), used=used)
+
+
+@construction("capture: where=fronted act=capture AT points=open_points", cost=0.2, given=("site",))
+def captured_at_points(
+    where: s.Selector, act: CaptureCommand, points: Points | float, used: int, site: Site
+) -> CaptureCommand | None:
+    """Compose "in the paddock, measure nitrate at ten random spots"."""
+    if act.place is not None or act.times > 1:
+        return None
+    made = _at_points(replace(act, place=PlaceMeaning(where, "area")), _Laid(points, site))
+    return None if made is None else replace(made, used=used)
+
+
+@construction(
+    "place: [DET] POINT gap=apart OVER where=region", "place: [DET] POINT gap=apart in_ where=region",
+    "place: [DET] POINT gap=apart OPPOSITE where=region",
+    cost=0.2, given=("site",),
+)  # fmt: skip
+def points_apart_on_ground(gap: float, where: s.Selector, site: Site) -> PlaceMeaning | None:
+    """Compose "points 30 m apart over the slope", of ground without plants."""
+    if bare_ground(where, site) is None:
+        return None
+    points = grid_selector(gap, where, site)
+    return None if points is None else PlaceMeaning(points, "several", each=True)
+
+
 @construction(
     "capture: act=capture [COMMA] except [AT] out=region",
     "capture: act=capture [COMMA] except [AT] DET GRIDPOINT in_ out=region",
@@ -195,3 +314,65 @@ def points_but_those(act: CaptureCommand, out: s.Selector, used: int, site: Site
         return None
     outside = s.InZone(zone=zone.zone, outside=True, of=place.selector)
     return replace(act, place=replace(place, selector=outside), used=used)
+
+
+@construction(
+    "laid_places: LAYS path=path WITH n=count POINT OVER where=region",
+    "laid_places: LAYS path=path OF n=count POINT OVER where=region",
+    "laid_places: LAYS path=path OVER where=region WITH n=count POINT",
+    "laid_places: LAYS path=path in_ where=region WITH n=count POINT",
+    "laid_places: LAYS path=path WITH n=count POINT in_ where=region",
+    "laid_places: LAYS path=path WITH n=count POINT THROUGH where=region",
+    "laid_places: LAYS path=path WITH n=count TREE OVER where=region",
+    "laid_places: LAYS path=path WITH n=count TREE OVER site",
+    "laid_places: LAYS path=path WITH n=count TREE THROUGH site",
+    "laid_places: LAYS path=path WITH n=count POINT OVER site",
+    "laid_places: LAYS path=path OVER site WITH n=count POINT",
+    "laid_places: on=walked WITH n=count POINT",
+    "laid_places: on=walked OF n=count POINT",
+    cost=0.1, given=("site",),
+)  # fmt: skip
+def laid_along_path(
+    n: int,
+    site: Site,
+    path: SamplingPath | None = None,
+    where: s.Selector | None = None,
+    on: tuple[SamplingPath, s.Selector | None] | None = None,
+) -> PlaceMeaning | None:
+    """Compose "lay a W with twelve points over the slope"."""
+    route, over_what = on if on is not None else (path, where)
+    made = None if route is None or n < 2 else route.over(over_what, site, count=n)
+    return None if made is None else PlaceMeaning(made, "several", count=n)
+
+
+@construction("laid_places: LAYS place=place", "laid_places: SCATTER place=place", cost=0.2)
+def laid_points(place: PlaceMeaning) -> PlaceMeaning | None:
+    """Compose "set out twelve points over the slope"."""
+    laid = all(isinstance(one, s.PointsIn | s.Transect | s.Grid) for one in place.selector.members)
+    return place if laid and place.shape == "several" else None
+
+
+@construction("at_each: AT EACH GRIDPOINT", "at_each: AT EACH [OFTHEM]", cost=0.0)
+def at_each_point() -> str:
+    """Compose "at every point"."""
+    return "each"
+
+
+@construction("at_each: place=here", cost=0.1)
+def at_each_of_them(place: PlaceMeaning) -> str | None:
+    """Compose "at each of them"."""
+    return "each" if place.shape == "those" and place.each else None
+
+
+@construction(
+    "capture: place=laid_places [COMMA] AND verb things=things at_each",
+    "capture: place=laid_places FULLSTOP [at_each] [COMMA] verb things=things",
+    "capture: place=laid_places FULLSTOP verb things=things at_each",
+    "capture: place=laid_places [COMMA] AND at_each [COMMA] verb things=things",
+    cost=0.2,
+)
+def captured_at_laid(place: PlaceMeaning, things: tuple[Thing, ...], used: int) -> CaptureCommand | None:
+    """Compose "lay a W with twelve points over the slope and read the soil moisture at each of them"."""
+    if any(one.count not in (None, 1) for one in things):
+        return None
+    return CaptureCommand(once(things), replace(place, each=True), used, relation="at")

@@ -8,11 +8,11 @@ from typing import Literal
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Adjunct
-from fieldhand.planning.grammar.meaning import CaptureCommand, PlaceMeaning
+from fieldhand.planning.grammar.meaning import CaptureCommand, PlaceMeaning, WorkCommand
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import are_rows, is_gate
+from fieldhand.planning.selections import are_rows, is_gate, is_one_row
 from fieldhand.site.model import Site
 from fieldhand.terms import TreeSide
 
@@ -25,14 +25,14 @@ Hand = Literal["left", "right"]
 
 @construction(
     "tree_side: EACHSIDE",
-    "tree_side: BOTH [OF] [ITS] SIDE",
-    "tree_side: BOTH [OF] [DET] SIDE",
-    "tree_side: EACH SIDE",
+    "tree_side: BOTH [OF] [ITS] noun=SIDE",
+    "tree_side: BOTH [OF] [DET] noun=SIDE",
+    "tree_side: EACH noun=SIDE",
     cost=0.1,
 )
-def both_sides() -> TreeSide:
-    """Compose "both sides"."""
-    return "both"
+def both_sides(noun: Lex | None = None) -> TreeSide | None:
+    """Compose "both sides"; "each section" and "both parts" are none of a row."""
+    return "both" if noun is None or "borders" in noun.features else None
 
 
 @construction("own_side: [DET] side=DIR SIDE", "own_side: ITS side=DIR SIDE", cost=0.1)
@@ -185,6 +185,14 @@ def on_one_side(side: TreeSide) -> Adjunct:
 def from_a_direction(side: Lex) -> Adjunct | None:
     """Compose "from the east", of a single tree."""
     return Adjunct(_on_own_side, side.value, of_place=True) if side.value in SIDES else None
+
+
+@construction("work: one=work [COMMA] FROM [DET] side=DIR", cost=0.2, given=("site",))
+def worked_from_a_side(one: WorkCommand, side: Lex, used: int, site: Site) -> WorkCommand | None:
+    """Compose "film row 4 from the east", which runs north to south; from the south it may be a direction."""
+    fits = one.mode == "rows" and one.sides == "one" and one.along is not None and is_one_row(one.along)
+    across = fits and one.along is not None and side.value in _across_rows(one.along, site)
+    return replace(one, sides=side.value, used=used) if across else None
 
 
 @construction(

@@ -113,6 +113,8 @@ def soil_test(noun: Lex, robot: RobotProfile, n: int | None = None) -> list[Thin
     """Compose "a soil test", which may be each of the readings that the robot takes of soil."""
     plural = noun.text.endswith("s")
     names = [one.name for one in robot.actions if one.measures and "soil" in split(one.name)]
+    if "samples" in noun.features and len(names) == 1:
+        return None  # soil itself may be meant, which the robot does not take
     return [Thing(name, count=n, plural=plural) for name in names] or None
 
 

@@ -35,7 +35,7 @@ def keep_out(place: PlaceMeaning, used: int) -> WayRule | None:
     return None if places is None else WayRule(tuple((one, 0.0) for one in places), left_out=places, used=used)
 
 
-@construction("way_rule: WITHOUT PASSES place=place", "way_rule: word=NOT THROUGH place=place", cost=0.2)
+@construction("way_rule: WITHOUT PASSES place=place [ITSELF]", "way_rule: word=NOT THROUGH place=place", cost=0.2)
 def not_through(place: PlaceMeaning, used: int, word: Lex | None = None) -> WayRule | None:
     """Compose "do not drive through row 10" and "not through row 10"."""
     del word
@@ -54,11 +54,18 @@ def around(place: PlaceMeaning, used: int) -> WayRule | None:
     "way_rule: KEEPOFF [check=CMP] far=amount RADIUS FROM place=place",
     "way_rule: KEEPOFF [DET] RADIUS OF [check=CMP] far=amount FROM place=place",
     "way_rule: KEEPOFF [check=CMP] far=amount CLEAROF place=place",
+    "way_rule: KEEPOFF [FAR] FROM place=place [COMMA] check=CMP far=amount",
+    "way_rule: KEEPOUT place=place [COMMA] check=CMP far=amount",
     "way_rule: [KEEPOFF] NOCLOSER far=amount FROM place=place",
     "way_rule: [KEEPOFF] NOCLOSER far=amount AT place=place",
     "way_rule: COMES NOCLOSER far=amount FROM place=place",
     "way_rule: COMES NOCLOSER far=amount AT place=place",
     "way_rule: WITHOUT COMES INSIDE far=amount OF place=place",
+    "way_rule: NONEWITHIN far=amount OF place=place",
+    "way_rule: NONEWITHIN far=amount FROM place=place",
+    "way_rule: NONEWITHIN far=amount AT place=place",
+    "way_rule: ATLEAST far=amount FROM place=place",
+    "way_rule: ATLEAST far=amount CLEAROF place=place",
     "way_rule: WITHOUT COMES closer=CLOSER far=amount AT place=place",
     "way_rule: WITHOUT COMES closer=CLOSER far=amount FROM place=place",
     cost=0.2,
@@ -130,6 +137,12 @@ def also_from(rule: WayRule, place: PlaceMeaning, used: int) -> WayRule | None:
 @construction("way_rule: WHILE rule=way_rule", "way_rule: BUT rule=way_rule", "way_rule: BUT rule=around", cost=0.2)
 def on_the_way(rule: WayRule, used: int) -> WayRule:
     """Compose "while avoiding the pond" and "but drive around the south block"."""
+    return replace(rule, used=used)
+
+
+@construction("way_rule: rule=way_rule [COMMA] WHOLETIME", "way_rule: WHOLETIME [COMMA] rule=way_rule", cost=0.1)
+def all_the_time(rule: WayRule, used: int) -> WayRule:
+    """Compose "keep 5 m from the pond the whole time", as every rule does."""
     return replace(rule, used=used)
 
 
@@ -205,3 +218,22 @@ def _kept(command: Command, places: s.Selector, site: Site, *, leaves_out: bool)
         return command  # "trees 4 and 9": a check tells which of them cannot be reached
     rest = left_out_of(command, Excluded(PlaceMeaning(places, "area")), site)
     return command if rest is None else rest
+
+
+@construction("through_to: VIAGATE gate=place AT to=place", "through_to: GO THROUGH gate=place AT to=place", cost=0.2)
+def through_gate_to(gate: PlaceMeaning, to: PlaceMeaning, used: int) -> tuple[LinkedCommand, ...] | None:
+    """Compose "go through the middle gate to the pond"."""
+    if gate.shape != "one" or not is_gate(gate.selector) or to.shape not in ("one", "area") or to.per is not None:
+        return None
+    there = DriveCommand(to, to.tokens)
+    through = DriveCommand(gate, used & ~to.tokens)
+    return LinkedCommand(None, through), LinkedCommand(Connective(False, True, 0), there)
+
+
+@construction("said: pair=through_to", "said: before=said joint=joint pair=through_to", cost=0.1)
+def said_through_gate(
+    pair: tuple[LinkedCommand, ...], before: Said | None = None, joint: Connective | None = None
+) -> Said:
+    """Compose "go through the middle gate to the pond" as a step, behind others too."""
+    through, there = pair
+    return Said((*(() if before is None else before.clauses), replace(through, before=joint), there))

@@ -67,14 +67,25 @@ def work_name(verb: Lex) -> Lex:
     "work: TAKE [DET] verb=WORKN OVER where=tract",
     "work: TAKE [DET] verb=WORKN where=tract",
     "work: TAKE [DET] verb=WORKV where=tract",
+    "work: CAUSE DET verb=WORKN OF where=tract",
+    "work: CAUSE DET verb=WORKV OF where=tract",
+    "work: TAKE ONE verb=WORKN [OF] where=tract",
+    "work: TAKE ONE verb=WORKV [OF] where=tract",
     "work: GO OVER where=tract WITH [DET] verb=WORKN",
     "work: GO [INORDERTO] verb=WORKV where=tract",
     "work: GO AND verb=WORKV where=tract",
+    "work: GO where=tract [COMMA] AND verb=WORKV IT",
     cost=0.1,
     given=("robot",),
 )
 def wanted_work(verb: Lex, where: Tract, used: int, robot: RobotProfile) -> list[WorkCommand] | None:
     """Compose "row 4 needs spraying", "give row 4 a spray" and "run the mower over the meadow"."""
+    return work(verb, used, robot, where)
+
+
+@construction("work: DET verb=WORKN OF where=tract", "work: DET verb=WORKV OF where=tract", cost=0.8, given=("robot",))
+def work_by_its_noun(verb: Lex, where: Tract, used: int, robot: RobotProfile) -> list[WorkCommand] | None:
+    """Compose "a video of row 4, please"."""
     return work(verb, used, robot, where)
 
 
@@ -102,6 +113,19 @@ def driven_with(one: WorkCommand, verb: Lex, used: int) -> WorkCommand | None:
     """Compose "two laps of the boundary with the camera on"."""
     known = not one.action and one.along is not None
     return replace(one, action=str(verb.value), used=used) if known else None
+
+
+@construction(
+    "work: USE [DET] verb=WORKN INORDERTO one=work",
+    "work: USE [DET] verb=WORKN [COMMA] one=work",
+    "work: WITH [DET] verb=WORKN [COMMA] one=work",
+    "work: one=work [COMMA] WITH [DET] verb=WORKN",
+    "work: one=work [COMMA] USE [DET] verb=WORKN",
+    cost=0.2,
+)
+def with_its_tool(one: WorkCommand, verb: Lex, used: int) -> WorkCommand | None:
+    """Compose "use the side camera to film row 4" and "film row 4 with the side camera"."""
+    return replace(one, used=used) if one.action and str(verb.value) == one.action else None
 
 
 @construction(

@@ -36,6 +36,7 @@ class Tract:
         every: 2 for every second aisle.
         along: True if the phrase says "along".
         optional: True for as much of it as the budget allows.
+        solid: True for what the robot drives around, and whose ground is not worked ("film the pond").
     """
 
     selector: s.Selector
@@ -44,6 +45,7 @@ class Tract:
     every: int = 1
     along: bool = False
     optional: bool = False
+    solid: bool = False
 
 
 @construction(
@@ -160,6 +162,21 @@ def every_plant(inner: Nominal, site: Site) -> Tract | None:
     return Tract(inner.selector, "rows") if rows_out_of(inner.selector, site) is not None else None
 
 
+@construction(
+    "tract: first=tract AND then=tract", "tract: first=tract COMMA AND then=tract",
+    "tract: first=tract COMMA rest=tract", cost=0.3,
+)  # fmt: skip
+def both_tracts(first: Tract, then: Tract | None = None, rest: Tract | None = None) -> Tract | None:
+    """Compose "the leek bed and the onion bed", also behind another one and a comma."""
+    then = rest if then is None else then
+    if then is None or (rest is not None and len(rest.selector.members) < 2):
+        return None
+    alike = replace(first, selector=then.selector) == then and first.selector != then.selector
+    if not alike or first.mode != "rows" or first.optional:
+        return None
+    return replace(first, selector=s.UnionOf(parts=(*first.selector.members, *then.selector.members)))
+
+
 @construction("tract: ASMANY part=tract as_can", "tract: ASMANY noun=ROW as_can", cost=0.0)
 def as_many(part: Tract | None = None, noun: Lex | None = None) -> Tract | None:
     """Compose "as many of rows 3 to 8 as you can"."""
@@ -222,6 +239,7 @@ def edge_as_tract(edge: Tract) -> Tract:
     "work: verb=WORKV",
     "work: verb=WORKV it=IT",
     "work: verb=WORKV it=IT how=parameter",
+    "work: verb=WORKV DET it=ZONEKIND",
     "work: USE [DET] verb=WORKN where=tract",
     "work: USE [DET] verb=WORKN AT where=tract",
     "work: USE [DET] verb=WORKN where=tract how=parameter",
@@ -245,7 +263,6 @@ def work(
     it: Lex | None = None,
 ) -> list[WorkCommand] | None:
     """Compose "spray rows 3 to 8 at 300 l/ha" and "run the mower between rows 10 and 14"."""
-    del it  # the rows or the area before
     parameters: tuple[tuple[str, str | float], ...] = ()
     if amount is not None:
         how = ParameterValue(amount.number, amount.unit, ())
@@ -258,7 +275,7 @@ def work(
     covers = implement is not None and implement.covers
     command = WorkCommand(action=verb.value, along=None, mode="rows", used=used, parameters=parameters)
     if where is None:
-        return [command]
+        return [replace(command, it=it is not None)]  # the rows or the area before
     if "cuts" in verb.features and (where.mode or ("area" if covers else "rows")) == "rows":
         return None  # "cut row 4" may be to prune it
     return along_tract(command, where, robot)
@@ -268,6 +285,8 @@ def along_tract(command: WorkCommand, where: Tract, robot: RobotProfile) -> list
     """Return work along a tract, in each way that it may be meant."""
     implement = robot.action[command.action].implement
     covers = implement is not None and implement.covers
+    if covers and where.solid:
+        return []
     mode = where.mode or ("area" if covers else "rows")
     command = replace(command, along=where.selector, mode=mode, sides=where.sides, every=where.every)
     command = replace(command, optional=where.optional)
@@ -303,9 +322,9 @@ def in_laps(one: WorkCommand, n: Lex, used: int) -> WorkCommand | None:
     return replace(one, laps=int(n.value), used=used)
 
 
-@construction("work: one=work [COMMA] THATONLY", cost=0.2)
+@construction("work: one=work [COMMA] THATONLY", "work: one=work [COMMA] ENTIRE", cost=0.2)
 def nothing_else(one: WorkCommand, used: int) -> WorkCommand | None:
-    """Compose "mow the meadow, nothing else", before what follows."""
+    """Compose "mow the meadow, nothing else", before what follows, and "film row 4 from end to end"."""
     return None if one.along is None else replace(one, used=used)
 
 
@@ -316,12 +335,22 @@ def as_much(one: WorkCommand, used: int) -> WorkCommand | None:
 
 
 @construction(
-    "work: one=work [COMMA] [AT] [DET] side=DIR SIDE", "work: one=work [COMMA] FROM [DET] side=DIR SIDE", cost=0.1
-)
+    "work: one=work [COMMA] [AT] [DET] side=DIR SIDE", "work: one=work [COMMA] FROM [DET] side=DIR SIDE",
+    "work: one=work [COMMA] AT ITS side=DIR SIDE", "work: one=work [COMMA] FROM ITS side=DIR SIDE", cost=0.1,
+)  # fmt: skip
 def on_one_side(one: WorkCommand, side: Lex, used: int) -> WorkCommand | None:
     """Compose "spray rows 3 to 8 at 300 l/ha on the west side" and "film row 3 from the west side"."""
     fits = one.mode == "rows" and one.sides == "one" and one.along is not None and side.value in SIDES
     return replace(one, sides=side.value, used=used) if fits else None
+
+
+@construction(
+    "work: one=work [COMMA] ONEPASS", "work: one=work [COMMA] AT ONEPASS", "work: one=work [COMMA] WITH ONEPASS",
+    "work: one=work [COMMA] EACH AT ONEPASS", cost=0.1,
+)  # fmt: skip
+def in_one_pass(one: WorkCommand, used: int) -> WorkCommand | None:
+    """Compose "film both beds in one pass each", which is how they are filmed anyway."""
+    return replace(one, used=used) if one.sides == "one" and one.laps == 1 and one.along is not None else None
 
 
 @construction("two_sides: ONESIDE [COMMA] [AND] [then] OTHERSIDE", cost=0.0)
@@ -332,12 +361,13 @@ def one_side_and_the_other() -> str:
 
 @construction(
     "work: one=work [COMMA] [FROM] EACHSIDE", "work: one=work [COMMA] [GO] two_sides",
-    "work: one=work FULLSTOP [GO] two_sides", cost=0.1,
+    "work: one=work FULLSTOP [GO] two_sides", "work: one=work [COMMA] [times=often] [COMMA] ONCE [FROM] EACHSIDE",
+    "work: one=work [COMMA] [FROM] EACHSIDE ONCE", cost=0.1,
 )  # fmt: skip
-def on_both_sides(one: WorkCommand, used: int) -> WorkCommand | None:
+def on_both_sides(one: WorkCommand, used: int, times: int = 2) -> WorkCommand | None:
     """Compose "spray rows 3 to 8 at 300 l/ha from both sides" and "film row 3, one side and then the other"."""
-    fits = one.mode == "rows" and one.sides == "one" and one.along is not None
-    return replace(one, sides="both", used=used) if fits else None
+    fits = one.mode == "rows" and one.sides == "one" and one.along is not None and times == 2
+    return replace(one, laps=1, sides="both", used=used) if fits and one.laps in (1, 2) else None
 
 
 @construction("command: one=work", cost=0.0)

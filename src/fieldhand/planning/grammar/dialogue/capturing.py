@@ -32,6 +32,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     as_for_each,
     block_at,
     captures_at_last_place,
+    drawn_again,
     for_each_at,
     is_conditional,
     is_inside,
@@ -67,6 +68,8 @@ from fieldhand.planning.grammar.meaning import (
     Thing,
 )
 from fieldhand.planning.grammar.places.compass import AWAY_FROM
+from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.places.sampling import bare_points
 from fieldhand.planning.selections import (
     AREAS,
     anchors,
@@ -77,6 +80,7 @@ from fieldhand.planning.selections import (
     counts_in_row,
     drawn_like,
     from_nearest_row,
+    is_across,
     is_end_of_site,
     is_one_row,
     is_row_of_place,
@@ -109,7 +113,7 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
         raise NotComposed(message("at every tree, or at how many?", context="fault"))
     state, command = _with_unsaid_again(setting, state, command)
     state, things = named_things(setting, state, command)
-    things = meant_things(state, things)
+    things = meant_things(setting, state, things)
     place, state, before = _place_of(setting, state, command)
     before = (*begun, *before)
     tokens = 0 if command.place is None else command.place.tokens & command.used
@@ -128,10 +132,18 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
         mark = landmark_of(state.where.selector, place.selector)  # "the tree next to the pond and one farthest from it"
         place = place if mark is None else replace(place, selector=swapped(place.selector, s.Here(), mark))
     place = _those_again(state, place)
+    if place is not None and place.shape == "those" and place.each and place.count:
+        place = _as_many_as_named(setting, state, place)
     if place is not None and place.shape == "those" and (place.count or place.at_most):
         return _at_some_of_those(state, replace(command, things=things), place, whole)
     if place is not None and state.where is None and not state.plan.steps:
         place = replace(place, selector=from_nearest_row(place.selector))
+    if place is not None and is_across(place.selector) and place.per is not None:
+        place = _across_among(setting, state, place)
+    if place is not None and is_across_each(state, place):
+        inside = replace(state, scope=state.loop or ())
+        made = capture_once(inside, replace(command, things=things), place, said, at_said)
+        return replace(made, scope=state.scope, loop=state.loop, where=state.where, where_scope=state.where_scope)
     require_known(setting, state, place, command.used)
     if place is None or place.shape in ("here", "those"):
         return _at_the_same_place(setting, state, replace(command, things=things, place=place), whole)
@@ -146,6 +158,31 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
         return capture_once(state, replace(command, things=things), place, said, at_said)
     state = replace(state, loop=None)
     return _capture_at_each(setting, state, replace(command, things=things), place, said, at_said)
+
+
+def is_across_each(state: DialogueState, place: PlaceMeaning | None) -> bool:
+    """Return True for the tree across the aisle from each of the places of the same sentence."""
+    several = state.where is not None and state.where.shape == "several" and state.loop is not None
+    across = place is not None and is_across(place.selector) and place.selector.relative
+    return several and across and state.commands_in_sentence > 0 and not is_inside(state.scope, state.loop or (-1,))
+
+
+def _across_among(setting: Setting, state: DialogueState, place: PlaceMeaning) -> PlaceMeaning:
+    """Return the tree across the aisle without the description of it, which fits wherever the robot then is.
+
+    Raises:
+        NotComposed: It does not fit everywhere.
+    """
+    last = state.where
+    origins = None if last is None or last.per is not None else ids_of(last.selector, setting.site)
+    known = None if place.per is None else ids_of(place.per, setting.site)
+    across = [ids_of(swapped(place.selector, s.Here(), s.TreeIs(tree=one)), setting.site) for one in origins or ()]
+    if not across or known is None or not all(one is not None and one <= known for one in across):
+        raise NotComposed(
+            message("what stands across the aisle is not everywhere one of those", context="fault"),
+            advice=message("say 'the tree across the aisle'"),
+        )
+    return replace(place, per=None)
 
 
 def _along_from_its_end(state: DialogueState, command: CaptureCommand) -> tuple[DialogueState, Spans]:
@@ -192,7 +229,7 @@ def _those_again(state: DialogueState, place: PlaceMeaning | None) -> PlaceMeani
         return place
     if last.selector.relative or last.per is not None or last.optional or last.at_most is not None:
         return place
-    return replace(last, each=place.each)
+    return replace(last, selector=drawn_again(last.selector), each=place.each)
 
 
 def capture_once(
@@ -266,7 +303,7 @@ def _with_unsaid_again(
     return with_assumption(state, same), replace(command, things=things)
 
 
-def meant_things(state: DialogueState, things: tuple[Thing, ...]) -> tuple[Thing, ...]:
+def meant_things(setting: Setting, state: DialogueState, things: tuple[Thing, ...]) -> tuple[Thing, ...]:
     """Return captures, those that refer to the last ones resolved.
 
     Raises:
@@ -287,7 +324,9 @@ def meant_things(state: DialogueState, things: tuple[Thing, ...]) -> tuple[Thing
         raise NotComposed(message("it is not clear whether the same condition decides that", context="fault"))
     last = state.things[0]
     given = dict(last.parameters)
-    if not given.keys() >= dict(things[0].parameters).keys():
+    action = setting.robot.action.get(last.action)
+    known = given.keys() | {parameter.name for parameter in (() if action is None else action.parameters)}
+    if not known >= dict(things[0].parameters).keys():
         raise NotComposed(message("it is not clear what another one is meant", context="fault"))
     parameters = tuple((given | dict(things[0].parameters)).items())
     return (replace(things[0], action=last.action, parameters=parameters),)
@@ -423,6 +462,19 @@ def _lines_at_each(
     return replace(done_at(state, place), things=command.things, scope=inside[:-2], loop=inside)
 
 
+def _as_many_as_named(setting: Setting, state: DialogueState, place: PlaceMeaning) -> PlaceMeaning:
+    """Return "both plants" as those that were named before.
+
+    Raises:
+        NotComposed: Not so many were named.
+    """
+    before = state.where
+    named = None if before is None else before.count or len(ids_of(before.selector, setting.site) or ())
+    if named not in (None, 0, place.count):
+        raise NotComposed(message("it is not clear which of them", context="fault"))
+    return replace(place, count=None)
+
+
 def _at_some_of_those(state: DialogueState, command: CaptureCommand, place: PlaceMeaning, said: Spans) -> DialogueState:
     """Return the state after captures at some of the places that the robot was sent to ("at 3 of them")."""
     steps = state.block.steps
@@ -499,6 +551,8 @@ def _where_it_ended(state: DialogueState, body: Path, condition: Condition) -> t
 def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
     """Return the state after what was done last at a place named at the end ("..., then at the southernmost tree")."""
     lead = state.lead
+    if lead is not None and (worked := _work_elided(setting, state, lead)) is not None:
+        return worked
     if lead is None or not state.things or lead.place.shape not in ("one", "several", "area"):
         return state
     if lead.relation == "topic":
@@ -517,6 +571,10 @@ def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
     things = state.things
     if lead.place.shape != "area":
         things = tuple(replace(thing, count=None) for thing in things)
+    elif bare_points(lead.place.selector, setting.site, 1) is not None and all(
+        one.count in (None, 1) for one in things
+    ):
+        things = tuple(replace(thing, count=None) for thing in things)  # "at the trough, at the tap and at the heap"
     elif not (_are_of_each(things) and (state.where is None or _is_area(state.where))) and (
         lead.relation == "" or not (state.where is None or _is_area(state.where) or are_rows(state.where.selector))
     ):
@@ -524,6 +582,18 @@ def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
     of_each = lead.place.shape == "area" and state.where is not None and state.where.shape == "several"
     again = CaptureCommand(things, lead.place, lead.used, relation="of" if of_each else lead.relation)
     return capture(setting, replace(state, lead=None), again)
+
+
+def _work_elided(setting: Setting, state: DialogueState, lead: Lead) -> DialogueState | None:
+    """Return the state after the last work was done at another place, too ("mow the slope, then the wet corner")."""
+    last = state.block.steps[-1].work if state.block.steps else None
+    place = lead.place
+    if last is None or not last.action or place.shape != "area" or place.per is not None or lead.relation == "topic":
+        return None
+    if last.mode not in ("rows", "area") or are_rows(place.selector) != are_rows(last.along) or place.like is not None:
+        return None
+    node = replace(last, id="", along=place.selector, said=setting.spans_of(lead.used))
+    return with_step(replace(state, lead=None), node)
 
 
 def _is_some_of_area(place: PlaceMeaning | None) -> bool:

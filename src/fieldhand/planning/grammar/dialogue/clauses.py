@@ -8,7 +8,14 @@ from dataclasses import replace
 from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.allowances import allowed, failing
-from fieldhand.planning.grammar.dialogue.capturing import capture, capture_again, capture_elided, meant_things
+from fieldhand.planning.grammar.dialogue.capturing import (
+    capture,
+    capture_again,
+    capture_elided,
+    is_across_each,
+    meant_things,
+)
+from fieldhand.planning.grammar.dialogue.compared import in_both_cases, is_compared
 from fieldhand.planning.grammar.dialogue.conditions import (
     captured_where,
     in_no_case,
@@ -43,7 +50,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     walk,
     without_idle_cases,
 )
-from fieldhand.planning.grammar.dialogue.series import is_by_reading, with_read_place
+from fieldhand.planning.grammar.dialogue.series import at_compared, is_by_reading, with_read_place
 from fieldhand.planning.grammar.dialogue.slow import ruled
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
@@ -54,12 +61,13 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_joints,
     with_step,
 )
+from fieldhand.planning.grammar.dialogue.that_ground import with_that_ground
 from fieldhand.planning.grammar.dialogue.those_rows import with_those_rows
-from fieldhand.planning.grammar.dialogue.totals import with_total
+from fieldhand.planning.grammar.dialogue.totals import reported, with_total
 from fieldhand.planning.grammar.dialogue.turns import as_meant
 from fieldhand.planning.grammar.dialogue.waits import waited, with_settling
 from fieldhand.planning.grammar.dialogue.watching import watched
-from fieldhand.planning.grammar.dialogue.working import driven_along, work_along
+from fieldhand.planning.grammar.dialogue.working import driven_along, driven_to_ground, work_along
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
     After,
@@ -86,6 +94,7 @@ from fieldhand.planning.grammar.meaning import (
     ReadingQuestion,
     RechargeClause,
     Reordered,
+    Reported,
     Said,
     SettleClause,
     StopCommand,
@@ -151,7 +160,7 @@ def read_clauses(setting: Setting, said: Said, *, in_fragments: bool = False) ->
         NotComposed: The clauses do not fit together.
         Fork: They can be continued in several ways, and ``setting`` does not say in which.
     """
-    clauses, edits = as_meant(setting, said.clauses)
+    clauses, edits = as_meant(setting, at_compared(said.clauses))
     if in_fragments and (whole := assembled(setting, clauses)) != clauses:
         clauses = whole
     elif in_fragments:
@@ -172,7 +181,7 @@ def _ended(setting: Setting, state: DialogueState) -> DialogueState:
     Raises:
         NotComposed: Something is missing.
     """
-    state = driven_along(setting, state)
+    state = driven_to_ground(setting, driven_along(setting, state))
     if state.open or state.awaits_command or state.order is not None:
         raise NotComposed(_IDLE, advice=_WHAT_THERE)
     state = _without_idle(state)
@@ -181,6 +190,8 @@ def _ended(setting: Setting, state: DialogueState) -> DialogueState:
     for _, node in walk(state.plan):
         if (loop := as_for_each(node)) is not None and _visits_open_number(loop):
             raise NotComposed(message("how many of the others?", context="fault"))
+        if loop is not None and loop.at_most is not None and all(step.only_drives for step in loop.body.children):
+            raise NotComposed(_IDLE, advice=_WHAT_THERE)  # "(photograph the leeks,) but visit at most ten plants"
         if loop is not None and has_open_number(loop.select):
             said = setting.request.rstrip(" .")
             raise OpenQuestion(message("'{said}': at how many places?", context="question", said=said))
@@ -247,7 +258,13 @@ def _read(
     setting: Setting, state: DialogueState, clause: LinkedCommand, following: Sequence[LinkedCommand]
 ) -> DialogueState:
     """Return the state after a clause."""
-    clause = replace(clause, command=with_those_rows(state, clause.command))
+    state, command = with_that_ground(state, with_those_rows(state, clause.command))
+    clause = replace(clause, command=command)
+    if is_compared(clause.command):
+        outer, cases = state.scope, in_both_cases(setting, capture_elided(setting, state), clause)
+        for number, one in enumerate(cases):
+            state = _read(setting, state, one, cases[number + 1 :])
+        return replace(state, scope=outer, loop=None, captured=None)
     if isinstance(clause.command, WatchCommand):
         joined = () if clause.before is None else setting.spans_of(clause.before.used)
         return watched(setting, with_joints(state, joined), clause.command)
@@ -260,6 +277,8 @@ def _read(
     joint, command = clause.before, with_known_place(setting, state, command)
     if joint is not None and joint.first:
         return _do_before_last(setting, state, command, joint, following)
+    if joint is not None and joint.each and not is_across_each(state, getattr(command, "place", None)):
+        raise NotComposed(message("it is not clear what is done after each of them", context="fault"))
     if state.plan.steps and isinstance(command, CaptureCommand | DriveCommand | Lead | When | Again):
         state = driven_home(setting, state)
     elided = state.lead is not None and state.lead.relation == "of" and isinstance(command, CaptureCommand)
@@ -316,6 +335,8 @@ def _read(
                 not isinstance(one.command, LimitClause | RechargeClause | WayRule) for one in following
             ):
                 raise NotComposed(message("something follows the end of the mission", context="fault"))
+            if joint is not None and (joint.full or joint.then or joint.both):
+                state = driven_to_ground(setting, state)
             if following and _chooses_among(command, following[0].command):
                 command = replace(command, place=replace(command.place, shape="area"))
             driven = drive(setting, state, command)
@@ -365,6 +386,8 @@ def _read(
             return limit_visits(setting, state, command)
         case Total():
             return with_total(setting, capture_elided(setting, state), command)
+        case Reported():
+            return reported(setting, capture_elided(setting, state), command)
         case Again():
             return capture_again(setting, state, command)
         case InAnOrder():
@@ -592,7 +615,9 @@ def _after(setting: Setting, state: DialogueState, command: After) -> DialogueSt
     """Return the state after a command that is done before the others of its sentence, unless it was done already."""
     done, home = command.done, state.home
     if isinstance(done, CaptureCommand) and is_spoken_of(done.place):
-        if {thing.action for thing in meant_things(state, done.things)} <= {thing.action for thing in state.things}:
+        if {thing.action for thing in meant_things(setting, state, done.things)} <= {
+            thing.action for thing in state.things
+        }:
             return with_joints(state, setting.spans_of(command.used))
         raise NotComposed(message("it is not clear after what", context="fault"))
     if state.commands_in_sentence and home is None:

@@ -40,6 +40,7 @@ from fieldhand.planning.selections import (
     as_some,
     blocks_of,
     chooses_from_trees,
+    is_gate,
     is_next_to_here,
     is_one_row,
     measures_distance,
@@ -130,9 +131,10 @@ def enter(setting: Setting, state: DialogueState, area: DriveCommand) -> Dialogu
 
 
 def _stands_idle(state: DialogueState) -> bool:
-    """Return True if the robot was just sent to a place where nothing has been done yet."""
+    """Return True if the robot was just sent to a place where nothing has been done yet; a gate is passed."""
     steps = state.block.steps
-    return bool(steps) and steps[-1].only_drives
+    last = steps[-1] if steps else None
+    return last is not None and last.only_drives and not (last.selector is not None and is_gate(last.selector))
 
 
 def visits(place: PlaceMeaning, said: Spans) -> p.ForEach:
@@ -272,6 +274,13 @@ def _way_home(home: Home) -> DriveCommand:
 def put_in_order(setting: Setting, state: DialogueState, command: InAnOrder) -> DialogueState:
     """Return the state with the last for-each in an order; an order that is said first waits for its places."""
     said = setting.spans_of(command.used)
+    if command.by == "any" and command.attribute:  # "always going to the nearest one next"
+        told = message(
+            "'{said}': the places are visited in the order in which all of the drives together are shortest.",
+            context="assumption",
+            said=setting.quoted(command.used),
+        )
+        state, command = with_assumption(state, told), replace(command, attribute="")
     if command.by == "each" and state.area is not None:
         place = replace(state.area.place, each=True)  # "along row 3 tree by tree"
         return replace(state, area=replace(state.area, place=place, used=state.area.used | command.used))

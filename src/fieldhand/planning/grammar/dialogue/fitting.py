@@ -20,6 +20,7 @@ from fieldhand.planning.selections import (
     as_along_row,
     as_in_row,
     as_some,
+    as_zone,
     chooses_from_trees,
     counts_in_row,
     is_in_block,
@@ -336,8 +337,9 @@ def _of_area(
         if count is None and _are_plural(things):
             raise OpenQuestion(message("'{said}': at how many places?", context="question", said=setting.quoted(used)))
         return PlaceMeaning(points, "several" if (count or 1) > 1 else "one", count=count)
-    zones = [bare_zone(part, setting.site) for part in place.selector.members]
-    if len(zones) > 1 and all(zones) and count in (None, 1, len(zones)):
+    named = [as_zone(part) for part in place.selector.members]
+    zones = [one.zone for one in named if one is not None and one == s.InZone(zone=one.zone)]
+    if len(named) == len(zones) > 1 and count in (None, 1, len(zones)) and not _are_plural(things):
         points_of_each = s.UnionOf(parts=tuple(s.PointsIn(zone=zone) for zone in zones))  # "at the trough and the tap"
         return PlaceMeaning(points_of_each, "several", each=True, count=len(zones))
     if count is None and _are_plural(things):

@@ -20,6 +20,7 @@ from fieldhand.planning.grammar.meaning import (
 )
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.places.groups import kind_in_area
+from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.selections import (
     anchors,
     are_rows,
@@ -56,6 +57,8 @@ def with_known_place(setting: Setting, state: DialogueState, command: Command) -
     """
     if not isinstance(command, _WithPlace) or command.place is None:
         return command
+    if command.place.shape == "those":
+        command = replace(command, place=_those_named(setting, state, command.place, command.used))
     place = _end_of_row_spoken_of(state, _in_row_spoken_of(state, command.place))
     place = _beside_unreached(state, place)
     command = replace(command, place=place)
@@ -78,6 +81,25 @@ def with_known_place(setting: Setting, state: DialogueState, command: Command) -
         other = _of_another_value(state, place.selector)
         return replace(command, place=replace(place, selector=other, like=None))
     return command if place.like is None else replace(command, place=_likewise(state, place, place.like))
+
+
+def _those_named(setting: Setting, state: DialogueState, place: PlaceMeaning, used: int) -> PlaceMeaning:
+    """Return "those five leeks" as the places that were named last, if they are five, and leeks.
+
+    Raises:
+        NotComposed: They are others.
+    """
+    before = state.where if state.where is not None else None if state.area is None else state.area.place
+    numbered, described = place.each and place.count is not None, place.selector not in (s.Here(), s.Trees())
+    if before is None or not (numbered or described):
+        return place
+    known = len(single_places(state)) if before.shape == "one" else before.count
+    if known is None and (found := ids_of(before.selector, setting.site)) is not None:
+        known = len(found)
+    if (described and place.selector not in before.selector.walk()) or (numbered and known not in (None, place.count)):
+        said = setting.quoted(place.tokens or used)
+        raise NotComposed(message("'{said}': no such ones were named before", context="fault", said=said))
+    return replace(place, selector=s.Trees() if described else place.selector, count=None if numbered else place.count)
 
 
 def _extreme(state: DialogueState, place: PlaceMeaning, side: str) -> PlaceMeaning:

@@ -18,6 +18,8 @@ from fieldhand.task import plan as p
 #: Steps from the plan's root to a node: indices of steps, and the names of the fields that hold the inner nodes.
 Path = tuple[int | str, ...]
 
+#: Seed of a draw that is to be the one before it.
+_AGAIN = -1
 #: Block without steps.
 EMPTY = p.InOrder(id="", steps=())
 
@@ -194,16 +196,34 @@ def _without_idle(node: p.Node) -> p.Node:
     return node.with_children([_without_idle(child) for child in node.children])
 
 
-def with_seeds(node: p.Node, seeds: Iterator[int]) -> p.Node:
-    """Return a plan in which each draw at random has a seed of its own, so that two draws are independent."""
+def with_seeds(node: p.Node, seeds: Iterator[int], known: dict[s.Selector, int] | None = None) -> p.Node:
+    """Return a plan in which each draw at random has a seed of its own, so that two draws are independent.
+
+    Args:
+        node: The plan.
+        seeds: Seeds that are not taken yet.
+        known: Seeds of the draws before it, which those that are :func:`drawn_again` get.
+    """
+    known = {} if known is None else known
     selector = node.selector
     if selector is not None:
         drawn = selector
         for part in selector.walk():
             if (sample := as_random(part)) is not None:
-                drawn = swapped(drawn, sample, replace(sample, seed=next(seeds)))
+                fresh = replace(sample, seed=0)
+                if sample.seed != _AGAIN or fresh not in known:
+                    known[fresh] = next(seeds)
+                drawn = swapped(drawn, sample, replace(sample, seed=known[fresh]))
         node = with_selector(node, drawn)
-    return node.with_children([with_seeds(child, seeds) for child in node.children])
+    return node.with_children([with_seeds(child, seeds, known) for child in node.children])
+
+
+def drawn_again(selector: s.Selector) -> s.Selector:
+    """Return places that were drawn before, as the same ones."""
+    for part in selector.walk():
+        if (sample := as_random(part)) is not None:
+            selector = swapped(selector, sample, replace(sample, seed=_AGAIN))
+    return selector
 
 
 def finished(node: p.Node) -> p.Node:

@@ -32,6 +32,8 @@ from fieldhand.planning.grammar.dialogue.state import (
 )
 from fieldhand.planning.grammar.dialogue.tested import checked, fits
 from fieldhand.planning.grammar.meaning import (
+    DIFFERENCE,
+    NTH_READING,
     AllTests,
     CaptureCommand,
     Command,
@@ -39,12 +41,15 @@ from fieldhand.planning.grammar.meaning import (
     HowMany,
     LinkedCommand,
     PlaceMeaning,
+    Subject,
     Test,
     When,
+    wait_seconds,
 )
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.selections import (
     are_rows,
+    as_zone,
     blocks_of,
     is_in_block,
     is_one_row,
@@ -106,6 +111,20 @@ def when_series(
     tested_at = (state.where, state.where_scope)
     made = replace(state, scope=(*path, "then"), choice=path, decided=command.tests, open=True, tested_at=tested_at)
     return made if here and state.loop is not None and is_inside(scope, state.loop) else replace(made, loop=None)
+
+
+def at_compared(clauses: Sequence[LinkedCommand]) -> tuple[LinkedCommand, ...]:
+    """Return clauses with "there" as the area that the condition before it compares with another."""
+    found: list[LinkedCommand] = []
+    for clause in clauses:
+        before, command = found[-1].command if found else None, clause.command
+        tests = before.tests.tests if isinstance(before, When) else ()
+        area = tests[0].place if len(tests) == 1 and tests[0].than is not None else None
+        there = isinstance(command, CaptureCommand) and command.place is not None and command.place.shape == "here"
+        if area is not None and there and isinstance(command, CaptureCommand):
+            clause = replace(clause, command=replace(command, place=area, relation="in"))
+        found.append(clause)
+    return tuple(found)
 
 
 def _at_each_place(state: DialogueState) -> tuple[DialogueState, Path] | None:
@@ -194,6 +213,12 @@ def _known(setting: Setting, test: Test, name: str, quantity: str, unit: str) ->
 def _comparison(setting: Setting, state: DialogueState, test: Test) -> tuple[c.Condition, DialogueState]:
     """Return the comparison of the readings at one place, or in one area, with those at another."""
     other = test.than
+    if other is not None and other.quantity == DIFFERENCE:
+        return _difference(setting, state, test)
+    if other is not None and other.quantity.startswith(NTH_READING):
+        return _change(setting, state, test, other.quantity)
+    if other is not None and other.place is None and test.place is not None:
+        other = replace(other, place=_rest_of(setting, state, test, test.place))
     if other is None or other.place is None or test.place is None:
         raise NotComposed(message("it is not clear which readings are tested", context="fault"))
     state = _parted(setting, state, test.place, other.place)
@@ -215,6 +240,71 @@ def _comparison(setting: Setting, state: DialogueState, test: Test) -> tuple[c.C
     return made, state
 
 
+def _rest_of(setting: Setting, state: DialogueState, test: Test, place: PlaceMeaning) -> PlaceMeaning | None:
+    """Return the only other place of such readings ("if the wet corner is higher"); None unless there is one."""
+    found: list[s.Selector] = []
+    for path, node in walk(state.plan):
+        if node.act is not None and fits(node, replace(test, unit=""), setting.robot):
+            found += [one for one in place_of(state.plan, path).members if not _is_at(setting, one, place)]
+    others = list(dict.fromkeys(found))
+    return PlaceMeaning(others[0], "several") if len(others) == 1 else None
+
+
+def sides_measured(setting: Setting, state: DialogueState) -> tuple[s.Selector, ...]:
+    """Return the places at which what was measured last was measured, each once."""
+    acts = [(path, node.act) for path, node in walk(state.plan) if node.act is not None]
+    acts = [(path, act) for path, act in acts if act.action in setting.robot.action]
+    measuring = [(path, act) for path, act in acts if setting.robot.action[act.action].measures]
+    last = measuring[-1][1].action if measuring else ""
+    places = (place_of(state.plan, path) for path, act in measuring if act.action == last)
+    return tuple(dict.fromkeys(one for place in places for one in place.members))
+
+
+def _difference(setting: Setting, state: DialogueState, test: Test) -> tuple[c.Condition, DialogueState]:
+    """Return the test of how far two readings, or the means at two places, are apart, in either direction.
+
+    Raises:
+        NotComposed: Readings were not taken at just two places.
+    """
+    sides = [PlaceMeaning(one, "several") for one in sides_measured(setting, state)]
+    if len(sides) != 2 or test.check not in ("gt", "ge", "lt", "le"):
+        raise NotComposed(message("it is not clear which readings are tested", context="fault"))
+    made: list[c.Condition] = []
+    for one, other in (sides, sides[::-1]):
+        condition, state = _comparison(setting, state, replace(test, place=one, than=Subject(place=other)))
+        made.append(condition)
+    return (c.AnyOf if test.check in ("gt", "ge") else c.AllOf)(conditions=tuple(made)), state
+
+
+def _change(setting: Setting, state: DialogueState, test: Test, other: str) -> tuple[c.Condition, DialogueState]:
+    """Return the comparison of two readings that are known by their numbers: the last one and the one before it.
+
+    Raises:
+        NotComposed: There are none, or they measure different things.
+    """
+    unclear = NotComposed(message("it is not clear which readings are tested", context="fault"))
+    acts = [(path, node.act) for path, node in walk(state.plan) if node.act is not None]
+    found = [(path, act) for path, act in acts if wait_seconds(act.action) is None]
+    taken = [path for path, act in found if act.count == 1 and setting.robot.action[act.action].measures]
+    taken = [path for path in taken if not any(node_at(state.plan, path[:end]).visits_each for end in range(len(path)))]
+    named: list[tuple[str, str]] = []
+    for number in (int(test.quantity.removeprefix(NTH_READING)), int(other.removeprefix(NTH_READING))):
+        at = number - 1 if number > 0 else len(taken) + number
+        if not 0 <= at < len(taken) or len(taken) < len(found):
+            raise unclear
+        one, quantity, state = _named(setting, state, replace(test, quantity=""), [taken[at]])
+        named.append((one, quantity))
+    (name, quantity), (than, other_quantity) = named
+    unit = setting.robot.quantity[quantity].unit
+    if name == than or quantity != other_quantity or (test.unit and test.unit != unit):
+        raise unclear
+    made = CompareSeries(
+        of="mean", reading=name, than=than, quantity=quantity, test=cast(Any, test.check), value=test.value,
+        unit=unit if test.value else "",
+    )  # fmt: skip
+    return made, state
+
+
 def _parted(setting: Setting, state: DialogueState, one: PlaceMeaning, other: PlaceMeaning) -> DialogueState:
     """Return the state with one for-each a place in the stead of a for-each that visits both places."""
     for number, step in enumerate(state.plan.steps):
@@ -226,7 +316,8 @@ def _parted(setting: Setting, state: DialogueState, one: PlaceMeaning, other: Pl
         if len(parts) < 2 or not all(sides) or len(sides[0]) + len(sides[1]) != len(parts):
             continue
         loops = tuple(
-            replace(loop, select=side[0] if len(side) == 1 else s.UnionOf(parts=tuple(side))) for side in sides
+            replace(loop, select=side[0] if len(side) == 1 else s.UnionOf(parts=tuple(side)))
+            for side in sorted(sides, key=lambda side: parts.index(side[0]))
         )
         steps = (*state.plan.steps[:number], *loops, *state.plan.steps[number + 1 :])
         return replace(state, plan=replace(state.plan, steps=steps), captured=None, loop=None)
@@ -237,6 +328,10 @@ def _is_at(setting: Setting, selector: s.Selector, place: PlaceMeaning) -> bool:
     """Return True if the places of a selector are those of a phrase, or some of its area."""
     if selector == place.selector or place.selector in tuple(selector.walk()):
         return True
+    zone = as_zone(place.selector)
+    named = zone is not None and zone == s.InZone(zone=zone.zone) and getattr(selector, "zone", "") == zone.zone
+    if named and getattr(selector, "part", "") == "all":
+        return True  # free points of the zone
     if are_rows(place.selector) and not is_in_block(place.selector):
         rows = {over(place.selector, block) for block in blocks_of(selector)}
         return bool(rows & set(selector.walk()))
@@ -255,7 +350,7 @@ def _paths(setting: Setting, state: DialogueState, test: Test) -> list[Path]:
     ]
     if test.place is not None:
         place = test.place
-        found = [(path, node) for path, node in found if _is_at(setting, _place_of(state.plan, path), place)]
+        found = [(path, node) for path, node in found if _is_at(setting, place_of(state.plan, path), place)]
     if not found:
         raise NotComposed(message("nothing before it measures that", context="fault"))
     actions = [node.act.action for _, node in found if node.act is not None]
@@ -275,7 +370,7 @@ def _fits(node: p.Node, test: Test, setting: Setting) -> bool:
     return fits(node, replace(test, unit="") if relative else test, setting.robot)
 
 
-def _place_of(plan: p.InOrder, path: Path) -> s.Selector:
+def place_of(plan: p.InOrder, path: Path) -> s.Selector:
     """Return the place of a capture: its own, that of the visits around it, or that of the last drive before it."""
     node = node_at(plan, path)
     if node.selector is not None:

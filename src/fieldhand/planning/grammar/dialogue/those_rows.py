@@ -24,7 +24,10 @@ def with_those_rows(state: DialogueState, command: T) -> T:
         NotComposed: No rows were named before it.
     """
 
-    def known(rows: s.Rows) -> s.Selector:
+    def known(value: Any) -> s.Selector | None:
+        rows = as_rows(value)
+        if rows is None or rows.first != THOSE_ROWS.first:
+            return None
         named = _rows_spoken_of(state)
         if named is None or rows.of not in (s.Trees(), *named.walk()):
             raise NotComposed(
@@ -33,19 +36,20 @@ def with_those_rows(state: DialogueState, command: T) -> T:
             )
         return named
 
-    changed: T = _changed(command, known)
+    changed: T = with_known(command, known)
     return changed
 
 
-def _changed(value: Any, known: Callable[[s.Rows], s.Selector]) -> Any:
-    if (rows := as_rows(value)) is not None and rows.first == THOSE_ROWS.first:
-        return known(rows)
+def with_known(value: Any, known: Callable[[Any], s.Selector | None]) -> Any:
+    """Return a command with what it refers to; ``known`` returns that for a part that refers, None for others."""
+    if (found := known(value)) is not None:
+        return found
     if isinstance(value, tuple):
-        return tuple(_changed(item, known) for item in value)
+        return tuple(with_known(item, known) for item in value)
     if not is_dataclass(value) or isinstance(value, type):
         return value
     inner = {field.name: getattr(value, field.name) for field in fields(value) if field.init}
-    changed = {name: new for name, old in inner.items() if (new := _changed(old, known)) != old}
+    changed = {name: new for name, old in inner.items() if (new := with_known(old, known)) != old}
     return replace(value, **changed) if changed else value
 
 

@@ -1,4 +1,4 @@
-"""Numbers of captures that a request gives beside its steps ("six samples in total")."""
+"""What a request says beside its steps: numbers of captures ("six samples in total"), and what is to be reported."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from dataclasses import replace
 
 from fieldhand.language import message
 from fieldhand.planning.grammar.dialogue.plans import as_for_each
-from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, Spans
-from fieldhand.planning.grammar.meaning import Total
+from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, Spans, with_assumption
+from fieldhand.planning.grammar.meaning import Reported, Total
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.task import plan as p
 
@@ -22,6 +22,25 @@ def with_total(setting: Setting, state: DialogueState, command: Total) -> Dialog
         raise NotComposed(message("it gives two different numbers", context="fault"))
     last, said = state.plan.steps[-1], setting.spans_of(command.used)
     return replace(state, plan=replace(state.plan, steps=(*state.plan.steps[:-1], _also_said(last, said))))
+
+
+def reported(setting: Setting, state: DialogueState, command: Reported) -> DialogueState:
+    """Return the state after a wish to be told what the report says anyway.
+
+    Raises:
+        NotComposed: It depends on something, or nothing was read.
+    """
+    if state.open or not state.plan.steps:
+        raise NotComposed(message("only after the mission does its report say this", context="fault"))
+    said = setting.spans_of(command.used)
+    sentence = message(
+        "'{said}': the report lists each reading, and the lowest, mean, median and highest of all.",
+        context="assumption",
+        said=setting.quoted(command.used).rstrip(" .?"),
+    )
+    steps = state.plan.steps
+    plan = replace(state.plan, steps=(*steps[:-1], _also_said(steps[-1], said)))
+    return with_assumption(replace(state, plan=plan), sentence)
 
 
 def _also_said(step: p.Node, said: Spans) -> p.Node:

@@ -148,20 +148,20 @@ def _weekday(groups: Mapping[str, str | None]) -> PastTime:
 
 
 def _since(groups: Mapping[str, str | None]) -> PastTime | None:
-    first = _day(groups["first"] or "")
+    first = day_named(groups["first"] or "")
     return PastTime(Period(first_day=first)) if first else None
 
 
 def _on_day(groups: Mapping[str, str | None]) -> PastTime | None:
-    day = _day(groups["day"] or "")
+    day = day_named(groups["day"] or "")
     return PastTime(Period(first_day=day, last_day=day)) if day else None
 
 
 def _days(groups: Mapping[str, str | None]) -> PastTime | None:
-    last = _day(groups["last"] or "")
+    last = day_named(groups["last"] or "")
     number = groups.get("number")
     if number is None:
-        first = _day(groups["first"] or "")
+        first = day_named(groups["first"] or "")
     else:
         first = f"{last[:-2]}{int(number):02d}" if 0 < int(number) < 32 and last[-2:].isdigit() else ""
     return PastTime(Period(first_day=first, last_day=last)) if first and last else None
@@ -171,14 +171,20 @@ def _month(groups: Mapping[str, str | None]) -> PastTime | None:
     year, name = groups.get("year"), groups.get("month")
     if name is None:
         return PastTime(Period(first_day=f"{year}-01-01", last_day=f"{year}-12-31"))
+    span = month_named(name, year)
+    return None if span is None else PastTime(Period(first_day=span[0], last_day=span[1]))
+
+
+def month_named(name: str, year: str | None) -> tuple[str, str] | None:
+    """Return the first and the last day of a month; None for another word, and if the last depends on the year."""
+    if name[:3] not in _MONTHS:
+        return None
     number = _MONTHS.index(name[:3]) + 1
     last = _LAST_DAYS[number - 1]
     if year is None:
-        if number == 2:
-            return None  # its last day depends on the year
-        return PastTime(Period(first_day=f"--{number:02d}-01", last_day=f"--{number:02d}-{last}"))
+        return None if number == 2 else (f"--{number:02d}-01", f"--{number:02d}-{last}")
     last = 28 if number == 2 and int(year) % 4 else last
-    return PastTime(Period(first_day=f"{year}-{number:02d}-01", last_day=f"{year}-{number:02d}-{last}"))
+    return f"{year}-{number:02d}-01", f"{year}-{number:02d}-{last}"
 
 
 def _ever(_groups: Mapping[str, str | None]) -> PastTime:
@@ -206,7 +212,7 @@ _READ: Mapping[str, Callable[[Mapping[str, str | None]], PastTime | None]] = {
 }
 
 
-def _day(said: str) -> str:
+def day_named(said: str) -> str:
     """Return a day as a period has it; empty for one that no calendar has."""
     words = [word for word in said.replace(",", " ").split() if word not in ("the", "of", "-")]
     if len(words) == 1:

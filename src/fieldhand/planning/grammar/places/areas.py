@@ -352,6 +352,18 @@ def places_of_area(where: s.Selector, inner: PlaceMeaning, to: Lex | None = None
     return replace(inner, selector=over(inner.selector, where))
 
 
+@construction("place: rows=each_row to=AT inner=place", "place: rows=each_row COMMA [to=AT] inner=place", cost=0.3)
+def places_of_each_row(rows: s.Selector, inner: PlaceMeaning, to: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "each bed at the third plant from the north"."""
+    if (to is not None and "motion" in to.features) or inner.per is not None or inner.shape not in ("one", "several"):
+        return None
+    if not all(counts_in_row(part) for part in inner.selector.members):
+        return None
+    if any(isinstance(part, AREAS) for part in inner.selector.walk()):
+        return None
+    return replace(inner, selector=over(inner.selector, rows), shape="several", each=True, count=None)
+
+
 @construction("place: WHOLEOF where=region", cost=0.2)
 def whole_area(where: s.Selector) -> PlaceMeaning:
     """Compose "the whole of row 4"."""

@@ -17,8 +17,14 @@ _MOST = 40
 
 
 @construction(
-    "beside_them: [DET] noun=TREE EACHSIDE THERE",
-    "beside_them: [DET] noun=TREE EACHSIDE OF IT",
+    "beside_them: [DET] noun=TREE [DIRECTLY] EACHSIDE THERE",
+    "beside_them: [DET] noun=TREE [DIRECTLY] EACHSIDE OF IT",
+    "beside_them: [DET] noun=TREE [DIRECTLY] NEXTTO IT",
+    "beside_them: [DET] noun=TREE [DIRECTLY] BESIDE IT",
+    "beside_them: ITS [n=count] noun=NEIGHBOUR",
+    "beside_them: [DET] [n=count] noun=NEIGHBOUR OF EACH [ONE]",
+    "beside_them: EACH ITS noun=NEIGHBOUR",
+    "beside_them: THEIR n=count noun=NEIGHBOUR",
     "beside_them: [DET] noun=TREE EACHSIDE OF EACH [ONE]",
     "beside_them: [DET] noun=TREE EACHSIDE OF DET",
     "beside_them: [DET] noun=NEIGHBOUR EACHSIDE",
@@ -26,16 +32,36 @@ _MOST = 40
     "beside_them: [DET] noun=ONE EACHSIDE THERE",
     "beside_them: [DET] noun=ONE EACHSIDE OF EACH",
     "beside_them: THEIR noun=NEIGHBOUR",
+    "beside_them: EACH ITS noun=NEIGHBOUR",
+    "beside_them: EACH THEIR noun=NEIGHBOUR",
+    "beside_them: ITS noun=NEIGHBOUR",
+    "beside_them: ITS count noun=NEIGHBOUR",
+    "beside_them: [DET] noun=NEIGHBOUR OF EACH [ONE]",
+    "beside_them: [DET] noun=NEIGHBOUR OF IT",
+    "beside_them: [DET] noun=TREE NEXTTO IT",
+    "beside_them: [DET] noun=TREE NEXTTO word=DET",
+    "beside_them: [DET] noun=TREE NEXTTO EACH [ONE]",
+    "beside_them: [DET] noun=ONE NEXTTO word=DET",
+    "beside_them: [DET] noun=ONE NEXTTO IT",
     cost=0.1,
 )
-def beside_them(noun: Lex) -> str | None:
-    """Compose "the plants on either side of them"."""
+def beside_them(noun: Lex, n: int = 2, word: Lex | None = None) -> str | None:
+    """Compose "the plants on either side of them" and "its neighbours"."""
+    if n != 2 or (word is not None and "those" not in word.features and word.text != "them"):
+        return None
     return "beside" if noun.plural or "plural" in noun.features or noun.text == "one" else None
+
+
+@construction("beside_them: beside_them in_ DET ROW", "beside_them: beside_them in_ DET SAME ROW", cost=0.0)
+def beside_them_in_the_row() -> str:
+    """Compose "its direct neighbours in the row"."""
+    return "beside"
 
 
 @construction(
     "place: whole=place [COMMA] AND beside_them", "place: whole=place AND OF beside_them",
     "place: whole=place AND AT beside_them", "place: whole=place TOGETHERWITH beside_them",
+    "place: whole=place AND ALSO OF beside_them", "place: whole=place AND ALSO beside_them",
     cost=0.1, given=("site",),
 )  # fmt: skip
 def with_those_beside(whole: PlaceMeaning, site: Site) -> PlaceMeaning | None:

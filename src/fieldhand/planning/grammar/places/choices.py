@@ -22,7 +22,7 @@ def of_your_choice(inner: Nominal) -> Nominal | None:
     return None if inner.single or inner.complete or not inner.plural else inner
 
 
-@construction("place: first=place OR second=place", "place: ANY first=place OR second=place", cost=0.4)
+@construction("place: first=place OR second=place", "place: ANY first=place OR second=place", cost=0.9)
 def one_or_the_other(first: PlaceMeaning, second: PlaceMeaning) -> list[PlaceMeaning] | None:
     """Compose "tree 5 or tree 6"."""
     if first.shape != second.shape or first.shape not in ("one", "several", "area") or first.per or second.per:
@@ -30,7 +30,7 @@ def one_or_the_other(first: PlaceMeaning, second: PlaceMeaning) -> list[PlaceMea
     return [first, second]
 
 
-@construction("rows: first=rows OR second=rows", cost=0.4)
+@construction("rows: first=rows OR second=rows", cost=0.9)
 def one_row_or_the_other(first: s.Selector, second: s.Selector) -> list[s.Selector]:
     """Compose "row 3 or row 4"."""
     return [first, second]

@@ -15,7 +15,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Likewise, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.areas import inside
 from fieldhand.planning.grammar.places.compass import AWAY_FROM, CORNERS, SIDES
-from fieldhand.planning.grammar.places.counted import Positions, TreeNumbers, row_of_all, rows_within
+from fieldhand.planning.grammar.places.counted import Positions, TreeNumbers, fills_rows, row_of_all, rows_within
 from fieldhand.planning.grammar.places.numbers import VAGUE_NUMBERS
 from fieldhand.planning.grammar.places.rows import in_each_row
 from fieldhand.planning.grammar.places.steps import Distance
@@ -26,6 +26,7 @@ from fieldhand.planning.selections import (
     as_nearest,
     as_zone,
     chooses_from_trees,
+    is_description,
     is_one_row,
     is_spot,
     over,
@@ -264,7 +265,8 @@ def yielders(rank: tuple[str, bool], n: int | None = None) -> Chosen | None:
 @construction("chosen: EACH n=ORD chosen=chosen", "chosen: EACH OTHER chosen=chosen", cost=0.1)
 def every_nth(chosen: Chosen, n: Lex | None = None) -> Chosen | None:
     """Compose "every third tree" and "every other tree"."""
-    return _every(chosen, 2 if n is None else n.value) if chosen.group or not chosen.inner.plural else None
+    one = chosen.group or not chosen.inner.plural or chosen.inner.unmarked
+    return _every(chosen, 2 if n is None else n.value) if one else None
 
 
 @construction("chosen: word=EACH n=count chosen=chosen", cost=0.2)
@@ -287,6 +289,8 @@ def _every(chosen: Chosen, n: int) -> Chosen | None:
 @construction(
     "chosen: chosen=chosen [COMMA] STARTING [DET] rank=ORD [TREE]",
     "chosen: chosen=chosen [COMMA] STARTING [DET] rank=ORD ONE",
+    "chosen: chosen=chosen [COMMA] COUNTED [DET] rank=ORD [TREE]",
+    "chosen: chosen=chosen [COMMA] COUNTED [DET] rank=ORD ONE",
     cost=0.1,
 )
 def starting_with(chosen: Chosen, rank: Lex) -> Chosen | None:
@@ -630,12 +634,23 @@ def places_of(chosen: Chosen, site: Site, word: Lex | None = None) -> list[Place
         return None
     numbers = _numbers(chosen, definite=word is not None)
     how = chosen.choice
-    if how.by == "evenly" and how.value == s.RowOf() and (own := row_of_all(chosen.inner, site)) is not None:
+    in_rows = any(are_rows(part) for part in chosen.inner.selector.walk())
+    open_row = how.by == "evenly" and (how.value == s.RowOf() or (how.value is None and not in_rows))
+    if open_row and (own := row_of_all(chosen.inner, site)) is not None:
         how = replace(how, value=own)  # "six basil plants spread evenly along the bed", which is theirs
+    if how.by == "evenly" and how.value is None and not any(are_rows(part) for part in chosen.inner.selector.walk()):
+        how = _evenly_among(chosen.inner, site) or how
     made = [_place(chosen, choice, n) for choice in _named(how, site) for n in numbers]
     if chosen.per is not None:
         made = [None if one is None else in_each_row(one, chosen.per) for one in made]
     return [one for one in made if one is not None] or None
+
+
+def _evenly_among(inner: Nominal, site: Site) -> Choice | None:
+    """Return how "four evenly spaced leeks" are chosen: along their row, or spread over their rows; None for others."""
+    if (own := row_of_all(inner, site)) is not None:
+        return Choice("evenly", own)
+    return Choice("spread") if fills_rows(inner, site) else None
 
 
 def _unvisited(chosen: Chosen) -> list[PlaceMeaning] | None:
@@ -812,6 +827,8 @@ def _of_every(m: int, n: int, of: s.Selector) -> s.Selector | None:
 
 
 def _evenly(n: int, of: s.Selector) -> s.Selector | None:
-    """Return trees that are evenly spaced along one row."""
+    """Return trees that are evenly spaced along one row, or spread over those of a description."""
     rows = {part for part in of.walk() if are_rows(part)}
+    if not rows and is_description(of):
+        return s.Spread(count=n, of=of)  # "five evenly spread leeks"
     return s.Evenly(count=n, of=of) if len(rows) == 1 and all(is_one_row(part) for part in rows) else None

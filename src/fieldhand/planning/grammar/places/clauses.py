@@ -175,6 +175,12 @@ def chosen_with(chosen: Chosen, clause: Clause) -> Chosen | None:
     return None if inner is None else replace(chosen, inner=inner)
 
 
+@construction("ATTR: attribute=ATTR ONRECORD", cost=0.1)
+def recorded_attribute(attribute: Lex) -> Lex:
+    """Compose "(whose) moisture on the map (is below 22)"."""
+    return attribute
+
+
 @construction("chosen: chosen=chosen [COMMA] ONRECORD", cost=0.1)
 def as_recorded(chosen: Chosen) -> Chosen | None:
     """Compose "five peppers with the lowest moisture on our list": what the site's file says of its plants."""

@@ -89,6 +89,13 @@ def row_of_all(inner: Nominal, site: Site) -> s.Selector | None:
     return row_itself(site.planting.rows[there.pop()], site)
 
 
+def fills_rows(inner: Nominal, site: Site) -> bool:
+    """Return True for plants of a description that share their rows with no others."""
+    plants = (ids_of(inner.selector, site) or set()) if is_description(inner.selector) else set()
+    rows = [{site.trees[tree].place.id for tree in row.trees} for row in site.planting.rows]
+    return bool(plants) and all(row <= plants for row in rows if row & plants)
+
+
 def row_itself(row: Row, site: Site) -> s.Selector:
     """Return a row by its name, and by its block if another block has a row of that name."""
     named = s.Rows(first=row.name, last=row.name)
@@ -116,7 +123,7 @@ def trees_counted(inner: Nominal, at: Positions, site: Site) -> list[PlaceMeanin
     if not middles or one:
         parts = [_at(first, last, at, of) for first, last in at.spans]
     else:
-        single = one_by_one(rows, site)
+        single = [row for row in one_by_one(rows, site) if ids_of(swapped(of, rows, row), site)]
         if not 0 < len(single) <= MOST_ONE_BY_ONE:
             return None
         parts = [_at(first, last, at, swapped(of, rows, row)) for row in single for first, last in at.spans]

@@ -25,6 +25,7 @@ from fieldhand.planning.selections import (
     as_some,
     blocks_of,
     centre_of,
+    is_block,
     is_end_of_site,
     is_in_block,
     is_one_row,
@@ -103,10 +104,14 @@ def kind_out(value: Lex, area: s.Selector | None = None) -> list[Omission]:
 
 
 @construction(
-    "out: [DET] flag=FLAG ONE", "out: ANY flag=FLAG ONE", "out: [DET] flag=FLAG ONE in_ area=region", cost=0.0
-)
-def such_out(flag: Lex, area: s.Selector | None = None) -> list[Omission]:
-    """Compose "the covered ones"."""
+    "out: [DET] flag=FLAG ONE", "out: ANY flag=FLAG ONE", "out: [DET] flag=FLAG ONE in_ area=region",
+    "out: ANY which_is flag=FLAG", "out: word=DET which_is flag=FLAG", "out: word=DET [ONE] which_is flag=FLAG",
+    cost=0.0,
+)  # fmt: skip
+def such_out(flag: Lex, area: s.Selector | None = None, word: Lex | None = None) -> list[Omission] | None:
+    """Compose "the covered ones" and "those that are covered"."""
+    if word is not None and word.features.isdisjoint({"those", "definite"}):
+        return None
     return [Omission(value=(name, value), area=area) for name, value in flag.value]
 
 
@@ -153,7 +158,24 @@ def chosen_out(chosen: Chosen) -> Omission:
     return Omission(chosen=chosen)
 
 
-@construction("but_out: except out=out", cost=0.0)
+@construction(
+    "outs: first=out COMMA second=out", "outs: first=outs COMMA second=out",
+    "out: first=out [COMMA] OR second=out", "out: first=outs [COMMA] OR second=out",
+    "out: first=out [COMMA] NOR second=out", "out: first=outs [COMMA] NOR second=out",
+    cost=0.0,
+)  # fmt: skip
+def neither_of_both(first: Omission, second: Omission) -> Omission | None:
+    """Compose "the wet corner or the slope" behind "but not": both are left out."""
+    one, other = first.place, second.place
+    if one is None or other is None or not {one.shape, other.shape} <= {"one", "several", "area"}:
+        return None
+    if any(place.per is not None or place.optional or place.like is not None for place in (one, other)):
+        return None
+    parts = s.UnionOf(parts=(*one.selector.members, *other.selector.members))
+    return Omission(place=PlaceMeaning(parts, "area" if one.shape == other.shape == "area" else "several"))
+
+
+@construction("but_out: except out=out", "but_out: [COMMA] NEITHER out=out", cost=0.0)
 def out_with_except(out: Omission) -> Omission:
     """Compose "except the yellow trees"."""
     return out
@@ -248,7 +270,8 @@ def _parts_out(whole: PlaceMeaning, out: Omission, site: Site) -> list[s.Selecto
 def rows_left_out(rows: s.Selector, out: Omission, site: Site) -> s.Selector | None:
     """Return the rows that numbers and positions behind rows leave out."""
     blocks = set(blocks_of(rows))
-    if len(blocks) > 1 or (out.positions and any(row.every > 1 or row.first for row in rows_of(rows))):
+    chosen = any(row.every > 1 or row.first or not (row.of == s.Trees() or is_block(row.of)) for row in rows_of(rows))
+    if len(blocks) > 1 or (out.positions and chosen):
         return None  # "rows 3 to 7 except the first": the third, or the first of the block?
     if out.value is not None:  # "each bed except the covered ones"
         kind = s.Where(attribute=out.value[0], test="eq", value=out.value[1], of=out.area or s.Trees())

@@ -8,7 +8,7 @@ from typing import cast
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning, Shape
-from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.places.numbered import are_two, ids_of
 from fieldhand.planning.grammar.places.quantities import article, quantified, unquantified
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
@@ -18,6 +18,7 @@ from fieldhand.planning.selections import (
     as_some,
     as_top,
     chooses_from_trees,
+    is_by_attribute,
     is_description,
     is_drawn,
     is_end_of_site,
@@ -84,14 +85,6 @@ def first_trees(rank: Lex, n: int, inner: Nominal) -> PlaceMeaning | None:
 def points_over(n: int, zone: Lex) -> PlaceMeaning:
     """Compose "five points spread across the wet corner"."""
     return PlaceMeaning(s.PointsIn(zone=zone.value, count=n), "several", count=n)
-
-
-@construction("place: EACH [OF] word=DET noun=TREE", cost=0.3)
-def each_of_those_named(word: Lex, noun: Lex) -> PlaceMeaning | None:
-    """Compose "each of those trees"."""
-    if "those" not in word.features or not noun.plural:
-        return None
-    return PlaceMeaning(s.Trees(), "those", each=True)
 
 
 @construction("place: EACH [OF] DET n=count TREE", cost=0.8)
@@ -257,7 +250,41 @@ def those(word: Lex) -> PlaceMeaning | None:
     return PlaceMeaning(s.Here(), "those") if "those" in word.features else None
 
 
-@construction("place: DET SAME noun=TREE", "place: DET SAME noun=ONE", cost=0.3)
+@construction(
+    "place: word=DET [n=count] noun=those_noun", "place: word=DET n=count",
+    "place: EACH [OF] word=DET [n=count] noun=those_noun", "place: EACH [OF] word=DET n=count",
+    "place: DET SAME n=count [noun=those_noun]", "place: EACH [OF] DET SAME [n=count] noun=those_noun",
+    "place: DET SAME noun=those_noun",
+    cost=0.3,
+)  # fmt: skip
+def those_named(word: Lex | None = None, n: int | None = None, noun: s.Selector | None = None) -> PlaceMeaning | None:
+    """Compose "those five plants" and "the same spots", of so many that were named before."""
+    if n == 1 or (word is not None and "those" not in word.features):
+        return None
+    return PlaceMeaning(noun or s.Trees(), "those", count=n, each=True)
+
+
+@construction("those_noun: noun=POINT", "those_noun: noun=SAMPLINGPOINT", cost=0.0)
+def those_spots(noun: Lex) -> s.Selector | None:
+    """Compose "spots" of "the same spots"."""
+    return s.Here() if noun.text.endswith("s") else None
+
+
+@construction("those_noun: noun=ONE", cost=0.0)
+def those_ones(noun: Lex) -> s.Selector | None:
+    """Compose "ones" of "the same ones"."""
+    return s.Here() if "plural" in noun.features else None
+
+
+@construction("those_noun: inner=nominal", cost=0.0)
+def those_plants(inner: Nominal) -> s.Selector | None:
+    """Compose "leeks" of "those four leeks", which have to be those that were named before."""
+    if not inner.plural or inner.single or inner.complete or inner.pronoun or inner.kind != "tree":
+        return None
+    return inner.selector if inner.selector == s.Trees() or is_by_attribute(inner.selector) else None
+
+
+@construction("place: DET SAME noun=TREE", "place: DET SAME noun=ONE", "place: DET SAME noun=POINT", cost=0.3)
 def the_same(noun: Lex) -> PlaceMeaning:
     """Compose "the same trees"."""
     several = noun.plural or "plural" in noun.features
@@ -270,13 +297,15 @@ def it(word: Lex) -> PlaceMeaning:
     return PlaceMeaning(s.Here(), "those" if "of_several" in word.features else "here")
 
 
-@construction("place: word=EACH OF place=place", "place: word=EACH place=place", cost=0.4)
-def each_of_group(word: Lex, place: PlaceMeaning) -> PlaceMeaning | None:
+@construction("place: word=EACH OF place=place", "place: word=EACH place=place", cost=0.4, given=("site",))
+def each_of_group(word: Lex, place: PlaceMeaning, site: Site) -> PlaceMeaning | None:
     """Compose "each of the 5 oldest trees"."""
     if "all_of" in word.features or place.shape != "several" or place.each or as_some(place.selector) is not None:
         return None
     if "every" in word.features or ("two" in word.features and place.count not in (None, 2)):
         return None
+    if "two" in word.features and not are_two(place.selector, site):
+        return None  # "both trees", of two that were named
     if place.optional or place.at_most is not None or place.per is not None:
         return None
     return replace(place, each=True)

@@ -167,14 +167,14 @@ def where_a_variety_grows(word: Lex, value: Lex) -> list[s.Selector] | None:
 
 @construction("crop_area: [word=DET] value=ATTRVAL", "crop_area: EACH [OF] [word=DET] value=ATTRVAL", cost=0.4)
 def where_a_crop_grows(value: Lex, word: Lex | None = None) -> list[s.Selector] | None:
-    """Compose "the carrots" as ground that is worked or crossed."""
+    """Compose "the carrots" and "the beetroot" as ground that is worked or crossed."""
     if word is not None and "indefinite" in word.features:
         return None
     kinds = [(name, text) for name, text in value.value if is_kind_attribute(name)]
     return [
         s.Where(attribute=name, test="eq", value=text)
         for name, text in kinds
-        if value.plural or is_unmarked(name, text)
+        if value.plural or is_unmarked(name, text) or (word is not None and "definite" in word.features)
     ]
 
 

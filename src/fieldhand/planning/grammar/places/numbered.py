@@ -9,7 +9,7 @@ from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.places.context import Context
 from fieldhand.planning.grammar.meaning import PlaceMeaning
-from fieldhand.planning.selections import over
+from fieldhand.planning.selections import are_rows, over
 from fieldhand.site.model import Site
 
 
@@ -61,3 +61,9 @@ def ids_of(selector: s.Selector, site: Site) -> set[str] | None:
         return {place.id for place in resolve(selector, site, Context(here=site.start))}
     except (PlaceError, TaskError):
         return None
+
+
+def are_two(selector: s.Selector, site: Site) -> bool:
+    """Return True for two trees, rows, or places that are not known before the mission."""
+    there = ids_of(selector, site)
+    return are_rows(selector) or there is None or len(there) == 2

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.naming import numbered_zones_of
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import PlaceMeaning
+from fieldhand.planning.grammar.places.compass import CORNERS
+from fieldhand.planning.grammar.places.points import Points
+from fieldhand.planning.grammar.places.sampling import bare_points
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import as_some, as_zone
+from fieldhand.planning.selections import as_every_nth, as_some, as_zone, chooses_from_trees, over
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -89,6 +94,36 @@ def every_zone(noun: Lex) -> Zones:
     return tuple(s.InZone(zone=name) for _, name in noun.value)
 
 
+@construction(
+    "zone_list: EACH noun=ZONEKIND", "zone_list: EACH [OF] DET noun=ZONEKIND", "zone_list: [DET] noun=ZONEKIND",
+    "zone_list: EACH [OF] [DET] n=count noun=ZONEKIND", "zone_list: [DET] n=count noun=ZONEKIND", cost=0.1,
+)  # fmt: skip
+def zones_of_a_kind(noun: Lex, n: int | None = None) -> Zones | None:
+    """Compose "each section" and "the two sections", of the warm and the cool section."""
+    return tuple(s.InZone(zone=name) for name in noun.value) if n in (None, len(noun.value)) else None
+
+
+@construction("zone_list: EACH QUARTER", "zone_list: EACH [OF] DET n=count QUARTER", cost=0.3)
+def quarters_of_site(n: int = 4) -> Zones | None:
+    """Compose "each quarter" of the site."""
+    return quarters_of_ground(None, n)
+
+
+@construction(
+    "zone_list: EACH QUARTER OF whole=region", "zone_list: EACH [OF] [DET] [n=count] QUARTER OF whole=region",
+    "zone_list: [DET] n=count QUARTER OF whole=region", "zone_list: [DET] noun=QUARTER OF whole=region",
+    "zone_list: EACH QUARTER OF site", "zone_list: EACH [OF] [DET] [n=count] QUARTER OF site",
+    "zone_list: [DET] n=count QUARTER OF site", "zone_list: [DET] noun=QUARTER OF site",
+    cost=0.1,
+)  # fmt: skip
+def quarters_of_ground(whole: s.Selector | None = None, n: int = 4, noun: Lex | None = None) -> Zones | None:
+    """Compose "each quarter of the paddock"."""
+    ground = s.Trees() if whole is None else whole
+    if n != 4 or (noun is not None and not noun.plural):
+        return None
+    return tuple(s.Quarter(quarter=corner, of=ground) for corner in CORNERS)
+
+
 @construction("zone_list: EACH OF zones=zone_list", "zone_list: EACH zones=zone_list", cost=0.0)
 def each_of_zones(zones: Zones) -> Zones:
     """Compose "each of beds 2 to 6"."""
@@ -99,17 +134,61 @@ def each_of_zones(zones: Zones) -> Zones:
 def in_each_zone(one: PlaceMeaning, zones: Zones) -> PlaceMeaning | None:
     """Compose "three points in every bed" and "two plants in each of beds 2 to 6"."""
     some = as_some(one.selector)
-    if one.per is not None or one.shape not in ("one", "several") or some is None or some.of != s.Trees():
+    if one.per is not None or one.shape not in ("one", "several") or one.selector == s.Middle():
+        return None
+    if some is None and chooses_from_trees(one.selector) and one.like is None:
+        if as_every_nth(one.selector) is not None or (one.shape == "several" and one.count is None):
+            return replace(one, selector=over(one.selector, s.UnionOf(parts=zones)))  # "every plant in both sections"
+        return PlaceMeaning(one.selector, "several", each=True, per=s.UnionOf(parts=zones))
+    if some is None or some.of != s.Trees():
         return None
     return PlaceMeaning(some, "several", each=True, per=s.UnionOf(parts=zones))
 
 
-@construction("place: n=count POINT in_ zones=zone_list", cost=0.1)
-def points_in_each_zone(n: int, zones: Zones) -> PlaceMeaning:
-    """Compose "three points in every bed"."""
-    named = [as_zone(zone) for zone in zones]
-    points = tuple(s.PointsIn(zone=zone.zone, count=n) for zone in named if zone is not None)
-    return PlaceMeaning(s.UnionOf(parts=points), "several", each=True)
+@construction("place: points=points in_ zones=zone_list", cost=0.1, given=("site",))
+def points_in_each_zone(points: Points, zones: Zones, site: Site) -> PlaceMeaning | None:
+    """Compose "three points in every bed" and "four random spots in each section"."""
+    if points.count is None or points.where is not None:
+        return None
+    made = points_of(zones, points.count, site, random=points.random)
+    return None if made is None else PlaceMeaning(made, "several", each=True, count=points.count * len(zones))
+
+
+@construction(
+    "place: [DET] MIDDLE OF zones=zone_list", "place: [DET] MIDDLE in_ zones=zone_list",
+    "place: [DET] MIDDLE OF zones=grounds", "place: [DET] MIDDLE in_ zones=grounds", cost=0.1, given=("site",),
+)  # fmt: skip
+def middle_of_each(zones: Zones, site: Site) -> PlaceMeaning:
+    """Compose "the middle of each section" and "the middle of the slope and of the paddock"."""
+    made = points_of(zones, 1, site) or s.UnionOf(parts=tuple(s.Middle(of=one) for one in zones))
+    return PlaceMeaning(made, "several", each=True, count=len(zones))
+
+
+@construction("place: [DET] noun=TREE in_ DET MIDDLE OF zones=zone_list", cost=0.1)
+def tree_in_middle_of_each(noun: Lex, zones: Zones) -> PlaceMeaning | None:
+    """Compose "the tree in the middle of each quarter"."""
+    made = s.UnionOf(parts=tuple(s.Middle(of=one) for one in zones))
+    return None if noun.plural else PlaceMeaning(made, "several", each=True, count=len(zones))
+
+
+@construction(
+    "place: points=points in_ zones=grounds [COMMA] APIECE", "place: points=points in_ zones=grounds [COMMA] INEACH",
+    "place: points=points APIECE in_ zones=grounds", cost=0.0, given=("site",),
+)  # fmt: skip
+def points_in_each_ground(points: Points, zones: Zones, site: Site) -> PlaceMeaning | None:
+    """Compose "five random points in the wet corner and the slope each"."""
+    return points_in_each_zone(points, zones, site)
+
+
+def points_of(zones: Zones, count: int, site: Site, *, random: bool = False) -> s.Selector | None:
+    """Return so many free points of each of some zones, or of parts of ground without plants."""
+    points: list[s.Selector] = []
+    for one in zones:
+        zone = as_zone(one)
+        named = zone is not None and zone == s.InZone(zone=zone.zone)
+        free = s.PointsIn(zone=zone.zone, count=count, random=random) if zone is not None and named else None
+        points += [found] if (found := free or bare_points(one, site, count, random=random)) is not None else []
+    return s.UnionOf(parts=tuple(points)) if len(points) == len(zones) else None
 
 
 @construction("zone_list: every=row_step noun=NUMBEREDZONE", cost=0.1)

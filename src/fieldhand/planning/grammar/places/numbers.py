@@ -5,7 +5,9 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 
+from fieldhand.language import message
 from fieldhand.places import selectors as s
+from fieldhand.planning.english.plant_words import is_kind_attribute, is_unmarked
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Amount, PlaceMeaning
 from fieldhand.planning.grammar.words import Lex
@@ -16,8 +18,8 @@ construction = GRAMMAR.construction
 
 #: Numbers to choose from in place of a vague one.
 VAGUE_NUMBERS = (3, 5, 10)
-#: Id of letters and a number.
-_CODED = re.compile(r"(\D*)([1-9]\d*)")
+#: Id that ends with a number: "N300", "G4-03", "3-5".
+_CODED = re.compile(r"(|.*\D)(0*[1-9]\d*)")
 #: Maximum number of trees of a range of numbers.
 _LONGEST_RANGE = 500
 
@@ -127,7 +129,8 @@ def code_range(first: tuple[str, ...], last: tuple[str, ...], site: Site) -> tup
     begin, end = int(low[2]), int(high[2])
     if not begin < end <= begin + _LONGEST_RANGE:
         return None
-    names = tuple(f"{low[1]}{number}" for number in range(begin, end + 1))
+    width = len(low[2])  # "G4-03" to "G4-13"
+    names = tuple(f"{low[1]}{number:0{width}d}" for number in range(begin, end + 1))
     return names if all(name in site.by_id for name in names) else None
 
 
@@ -217,7 +220,7 @@ def and_so_on(
     every = second - begin
     if every < 1 or (step is not None and step.value != every) or not 0 < end - begin <= 500 * every:
         return None
-    names = tuple(f"{codes[0][1]}{number}" for number in range(begin, end + 1, every))
+    names = tuple(f"{codes[0][1]}{number:0{len(codes[0][2])}d}" for number in range(begin, end + 1, every))
     if names[: len(first)] != first or names[-1] != codes[-1][0]:
         return None  # "5, 15, 25 and so on up to 163"
     return names if all(name in site.by_id for name in names) else None
@@ -243,6 +246,23 @@ def named_trees(trees: tuple[str, ...]) -> PlaceMeaning:
     if len(trees) == 1:
         return PlaceMeaning(s.TreeIs(tree=trees[0]), "one")
     return PlaceMeaning(s.UnionOf(parts=tuple(s.TreeIs(tree=t) for t in trees)), "several", count=len(trees))
+
+
+@construction(
+    "place: [DET] kind=ATTRVAL trees=tree_ids", "place: EACH [DET] kind=ATTRVAL trees=tree_ids",
+    "place: [DET] kind=ATTRVAL NUMBERED trees=tree_ids",
+    cost=0.1, given=("site",),
+)  # fmt: skip
+def named_plants_of_kind(kind: Lex, trees: tuple[str, ...], site: Site) -> PlaceMeaning | None:
+    """Compose "carrots 3-5, 3-10 and 3-15" and "the peppers G5-03 and G5-04"."""
+    kinds = [(name, text) for name, text in kind.value if is_kind_attribute(name)]
+    plants = [site.by_id[tree].properties for tree in trees if tree in site.by_id]
+    if not kinds or (kind.plural != (len(trees) > 1) and not all(is_unmarked(*one) for one in kinds)):
+        return None
+    if len(plants) < len(trees) or not any(all(one.get(name) == text for one in plants) for name, text in kinds):
+        fault = message("not all of these plants are of that kind", context="fault")
+        return replace(named_trees(trees), shape="nowhere", fault=fault)
+    return named_trees(trees)
 
 
 @construction("place: EACH [DET] trees=tree_ids", cost=0.1)

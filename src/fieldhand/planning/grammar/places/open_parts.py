@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import cast
 
 from fieldhand.errors import PlaceError, TaskError
@@ -11,10 +12,13 @@ from fieldhand.places.context import Context
 from fieldhand.places.resolution import Resolution, resolve
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import PlaceMeaning
-from fieldhand.planning.grammar.places.compass import SIDES
+from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
+from fieldhand.planning.grammar.places.planted_rows import rows_out_of
+from fieldhand.planning.grammar.places.points import Ground
+from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import are_rows, as_zone, compass_part, is_one_row
 from fieldhand.site.model import Site
-from fieldhand.terms import Side
+from fieldhand.terms import AreaPart, Side
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -23,6 +27,8 @@ construction = GRAMMAR.construction
 _LARGE = 0.2
 #: Ratio of the distances along the two axes from which on a place lies to one side rather than to a corner.
 _CLEARLY = 1.5
+#: Parts of an area that a half and a quarter are.
+_HALF, _QUARTER = 0.5, 0.25
 
 
 @construction("region: [DET] OPENPART OF whole=region", "region: [DET] OPENPART in_ whole=region", cost=0.2)
@@ -31,6 +37,40 @@ def some_side_of(whole: s.Selector) -> list[s.Selector] | None:
     if are_rows(whole) or any(compass_part(part) is not None or isinstance(part, s.Edge) for part in whole.walk()):
         return None
     return [s.Half(side=side, of=whole) for side in SIDES]
+
+
+@construction("region: part=PART [OF] whole=region", cost=0.3, given=("site",))
+def some_part_of(part: Lex, whole: s.Selector, site: Site) -> list[s.Selector] | None:
+    """Compose "half of the paddock" and "a quarter of the meadow": which half or quarter is that?"""
+    rows = rows_out_of(whole, site)
+    if are_rows(whole) or (rows is not None and is_one_row(rows)):
+        return None
+    if any(compass_part(one) is not None or isinstance(one, s.Edge) for one in whole.walk()):
+        return None
+    if part.value == _QUARTER:
+        return [s.Quarter(quarter=corner, of=whole) for corner in CORNERS]
+    return [s.Half(side=side, of=whole) for side in SIDES] if part.value == _HALF else None
+
+
+@construction("ground: part=PART [OF] whole=ground", cost=0.1)
+def some_part_of_ground(part: Lex, whole: Ground) -> list[Ground] | None:
+    """Compose "half of the paddock", of points in it: in which half?"""
+    parts: dict[float, tuple[AreaPart, ...]] = {_HALF: SIDES, _QUARTER: CORNERS}
+    if whole.part != "all":
+        return None
+    return [replace(whole, part=one) for one in parts.get(part.value, ())] or None
+
+
+@construction(
+    "region: [DET] HALF OF whole=region [COMMA] which_is AT [DET] side=DIR [SIDE]",
+    "region: [DET] HALF OF whole=region AT [DET] side=DIR [SIDE]",
+    cost=0.1,
+)  # fmt: skip
+def half_on_a_side(whole: s.Selector, side: Lex) -> s.Selector | None:
+    """Compose "the half of the meadow that lies to the west"."""
+    if are_rows(whole) or side.value not in SIDES or compass_part(whole) is not None:
+        return None
+    return s.Half(side=side.value, of=whole)
 
 
 @construction(

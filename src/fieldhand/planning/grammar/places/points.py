@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import PlaceMeaning
+from fieldhand.planning.grammar.meaning import THAT_GROUND, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import OPEN_NUMBER, as_zone
@@ -121,11 +121,27 @@ def spread_out(points: Points) -> Points | None:
     "points: points=points [COMMA] in_ where=ground", "points: points=points [COMMA] OVER where=ground",
     "points: points=points [COMMA] SPREAD where=ground", "points: points=points EVENLYALONG where=ground",
     "points: points=points OPPOSITE where=ground", "points: points=points ALONG where=ground",
+    "points: points=points there=THERE", "points: points=points in_ there=IT", "points: points=points OVER there=IT",
     cost=0.0,
 )  # fmt: skip
-def somewhere(points: Points, where: Ground) -> Points | None:
-    """Compose "spots all over the slope"."""
-    return replace(points, where=where) if points.where is None else None
+def somewhere(points: Points, where: Ground | None = None, there: Lex | None = None) -> Points | None:
+    """Compose "spots all over the slope" and "six spots there"."""
+    if points.where is not None or (there is not None and "of_several" in there.features):
+        return None
+    return replace(points, where=where or Ground(THAT_GROUND))
+
+
+@construction("place: ITS MIDDLE", "place: [DET] MIDDLE OF IT", cost=0.2)
+def its_middle() -> PlaceMeaning:
+    """Compose "its middle", of the zone or the row that was spoken of."""
+    return PlaceMeaning(s.Middle(of=s.InZone(zone=THAT_GROUND)), "one")
+
+
+@construction("points: where=ground [COMMA] word=AT points=points", cost=0.2)
+def at_points_there(where: Ground, points: Points, word: Lex) -> Points | None:
+    """Compose "(on) the slope at four evenly spread points"."""
+    known = points.where is None and points.count is not None and "motion" not in word.features
+    return replace(points, where=where) if known else None
 
 
 # Places.
@@ -140,6 +156,35 @@ def as_places(points: Points) -> PlaceMeaning | None:
         made = s.PointsIn(zone=points.where.zone, count=OPEN_NUMBER, random=points.random, part=points.where.part)
         return PlaceMeaning(made, "several") if points.plural else None
     return points_on(points.where, points.count, random=points.random)
+
+
+@construction(
+    "place: points=points in_ EACH QUARTER OF where=ground", "place: points=points in_ EACH QUARTER in_ where=ground",
+    "place: points=points in_ EACH QUARTER",
+    cost=0.2, given=("site",),
+)  # fmt: skip
+def points_in_each_quarter(points: Points, site: Site, where: Ground | None = None) -> PlaceMeaning | None:
+    """Compose "one random point in each quarter of the meadow"."""
+    whole = where or (None if site.trees else Ground())
+    if whole is None or whole.part != "all" or points.where is not None or not points.count:
+        return None
+    parts = [points_on(replace(whole, part=part), points.count, random=points.random).selector for part in CORNERS]
+    return PlaceMeaning(s.UnionOf(parts=tuple(parts)), "several", count=points.count * len(parts), each=True)
+
+
+@construction(
+    "place: first=points [COMMA] AND n=count in_ where=ground", "place: first=points [COMMA] AND then=points", cost=0.2
+)
+def and_as_many_elsewhere(
+    first: Points, n: int = 0, where: Ground | None = None, then: Points | None = None
+) -> PlaceMeaning | None:
+    """Compose "four random spots in the warm section and four in the cool section"."""
+    second = Points(n, random=first.random, where=where) if then is None else then
+    if first.count is None or second.count is None or first.where is None or second.where is None:
+        return None
+    parts = [points_on(one.where, one.count, random=one.random) for one in (first, second) if one.where and one.count]
+    both = s.UnionOf(parts=tuple(one.selector for one in parts))
+    return PlaceMeaning(both, "several", count=first.count + second.count)
 
 
 def points_on(where: Ground, count: int, *, random: bool = False) -> PlaceMeaning:

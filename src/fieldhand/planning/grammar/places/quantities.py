@@ -8,7 +8,7 @@ from typing import Literal
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
-from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.places.numbered import are_two, ids_of
 from fieldhand.planning.grammar.places.numbers import VAGUE_NUMBERS
 from fieldhand.planning.grammar.places.vague import as_many_of_best
 from fieldhand.planning.grammar.words import Lex
@@ -27,10 +27,12 @@ class Determiner:
         kind: Article ("the", "a", "some" or another one, ``that``), "any" or the free choice of "whichever", "each" or
             "all"; empty if there is none.
         n: Number, if it is given.
+        two: True for "both".
     """
 
     kind: Literal["", "the", "a", "some", "that", "any", "any such", "whichever", "each", "all"] = ""
     n: int | None = None
+    two: bool = False
 
 
 @construction("quantity: word=DET [n=count]", cost=0.0)
@@ -58,13 +60,15 @@ def any_of(word: Lex | None = None, n: int | None = None, of: Lex | None = None)
 @construction("quantity: word=EACH [DET] [n=count]", cost=0.0)
 def each(word: Lex, n: int | None = None) -> Determiner:
     """Compose "every" and "all 12"."""
-    return Determiner("all" if "all_of" in word.features else "each", n)
+    return Determiner("all" if "all_of" in word.features else "each", n, two="two" in word.features)
 
 
 @construction("place: quantity=quantity inner=nominal", cost=0.2, given=("site",))
 def quantified(quantity: Determiner, inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
     """Compose "the three yellow trees", "any tree of row 4" and "every corner"."""
     kind, n = quantity.kind, quantity.n
+    if quantity.two and not inner.complete and not are_two(inner.selector, site):
+        return None  # "both trees", of two that were named
     if inner.single:
         return (
             [PlaceMeaning(inner.selector, "one")]
@@ -152,12 +156,15 @@ def some_or_all(n: int, selector: s.Selector, site: Site) -> list[PlaceMeaning] 
     return [every, some]
 
 
-@construction("place: ASMANY [DET] [OTHER] inner=nominal as_can", "place: [DET] MOSTNUMBER OF inner=nominal", cost=0.2)
-@construction("place: ASMANY [DET] [OTHER] inner=nominal", cost=2.0)
-def as_many(inner: Nominal) -> PlaceMeaning | None:
-    """Compose "as many trees as you can"."""
+@construction("place: ASMANY [DET] [other=OTHER] inner=nominal as_can", cost=0.2)
+@construction("place: [DET] MOSTNUMBER OF inner=nominal", cost=0.2)
+@construction("place: ASMANY [DET] [other=OTHER] inner=nominal", cost=2.0)
+def as_many(inner: Nominal, other: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "as many trees as you can" and "as many other trees as you can"."""
     if inner.single or not inner.plural:
         return None
+    if other is not None and "others" in other.features:
+        inner = replace(inner, selector=s.NotVisited(of=inner.selector))
     return as_many_of_best(PlaceMeaning(inner.selector, "several", optional=True, vague=inner.vague))
 
 

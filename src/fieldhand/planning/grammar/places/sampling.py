@@ -17,15 +17,18 @@ from fieldhand.planning.grammar.places.points import outside_zones
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
     OPEN_NUMBER,
+    are_rows,
     as_excluding,
     as_some,
     as_zone,
     chooses_from_trees,
     compass_part,
+    is_one_row,
     over,
     rows_of,
 )
 from fieldhand.site.model import Site
+from fieldhand.terms import AreaPart
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -53,7 +56,8 @@ class SamplingPath:
         if ground is not None:
             if ground.left_out and not apart_m:
                 return None  # so many in all, of which some would be left out
-            return ground.without(replace(self.among(s.Trees(), count), apart_m=apart_m, zone=ground.zone))
+            path = replace(self.among(s.Trees(), count), apart_m=apart_m, zone=ground.zone, part=ground.part)
+            return ground.without(path)
         if not site.trees:
             return None
         return replace(self.among(s.Trees() if area is None else area, count), apart_m=apart_m)
@@ -78,10 +82,12 @@ class BareGround:
     Attributes:
         zone: Name of the zone; empty for the whole site.
         left_out: Names of the zones that are left out of it.
+        part: The half or quarter of it that is meant.
     """
 
     zone: str
     left_out: tuple[str, ...] = ()
+    part: AreaPart = "all"
 
     def without(self, points: s.Selector) -> s.Selector:
         """Return points but those in the zones that are left out."""
@@ -99,6 +105,9 @@ def bare_ground(area: s.Selector | None, site: Site) -> BareGround | None:
         outs = [as_zone(part) for part in rest.places.members]
         plain = [one.zone for one in outs if one is not None and not one.outside and not one.margin_m]
         return replace(inner, left_out=(*inner.left_out, *plain)) if inner and len(plain) == len(outs) else None
+    if (named := compass_part(area)) is not None:
+        whole = bare_ground(named[1], site)
+        return replace(whole, part=named[0]) if whole is not None and whole.part == "all" else None
     zone = bare_zone(area, site)
     return BareGround(zone) if zone else None
 
@@ -107,7 +116,7 @@ def is_on_bare_ground(points: s.Selector, site: Site) -> bool:
     """Return True for a grid or a path over ground without trees, some of whose points may be left out."""
     zone = as_zone(points)
     points = zone.of if zone is not None and zone.outside else points
-    named = isinstance(points, s.Grid | s.Transect) and bool(points.zone)
+    named = isinstance(points, s.Grid | s.Transect) and points.on_ground
     return named or (isinstance(points, s.Grid | s.Transect) and not site.trees)
 
 
@@ -128,6 +137,28 @@ def bare_points(area: s.Selector, site: Site, count: int, *, random: bool = Fals
         return s.PointsIn(count=count, random=random)
     zone = bare_zone(area, site)
     return s.PointsIn(zone=zone, count=count, random=random) if zone else None
+
+
+def some_points(area: s.Selector, site: Site, count: int, *, random: bool = False) -> s.Selector | None:
+    """Return so many places of an area: free points of bare ground, else plants of it."""
+    free = bare_points(area, site, count, random=random)
+    if free is not None or not chooses_from_trees(area):
+        return free
+    if random:
+        return s.RandomSample(count=count, of=area)
+    if are_rows(area):
+        return s.Evenly(count=count, of=area) if is_one_row(area) else None
+    return s.Spread(count=count, of=area)
+
+
+def laid_over(points: s.Selector, area: s.Selector, site: Site) -> s.Selector | None:
+    """Return points that were named without their ground as those over an area; None for other places."""
+    if not isinstance(points, s.Grid | s.Transect) or points.on_ground or points.of != s.Trees():
+        return None
+    if isinstance(points, s.Grid):
+        return grid_selector(points.every_m, area, site)
+    path = SamplingPath(points.shape, points.legs)
+    return None if points.shape == "edge" else path.over(area, site, count=points.count, apart_m=points.apart_m)
 
 
 # Shares.
@@ -343,10 +374,19 @@ def grid(far: Amount, far2: Amount | None = None, number: Lex | None = None) -> 
     return far.number if abs(across - far.number) < 1e-6 else None
 
 
-@construction("cells: [DET] GRID OF POINT gap=apart", "cells: [DET] GRID WITH POINT gap=apart", cost=0.1)
+@construction(
+    "cells: [DET] GRID OF POINT gap=apart", "cells: [DET] GRID WITH POINT gap=apart", "cells: [DET] GRID gap=apart",
+    cost=0.1,
+)  # fmt: skip
 def grid_of_points(gap: float) -> float:
     """Compose "a grid of points 20 m apart"."""
     return gap
+
+
+@construction("on_grid: EACH far=amount AT [DET] GRID", cost=0.1)
+def so_far_on_a_grid(far: Amount) -> float | None:
+    """Compose "every 20 m on a grid"."""
+    return far.number if far.unit == "metres" and far.number > 0 else None
 
 
 @construction(
@@ -406,7 +446,7 @@ def grid_selector(every: float, area: s.Selector | None, site: Site) -> s.Select
             return kept.selector
     ground = bare_ground(area, site)
     if ground is not None:
-        return ground.without(s.Grid(every_m=every, zone=ground.zone))
+        return ground.without(s.Grid(every_m=every, zone=ground.zone, part=ground.part))
     return s.Grid(every_m=every, of=s.Trees() if area is None else area) if site.trees else None
 
 

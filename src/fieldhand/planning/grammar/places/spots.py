@@ -6,8 +6,10 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
+from fieldhand.planning.grammar.places.sampling import bare_points
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import are_rows, as_edge, as_zone, is_one_row, over
+from fieldhand.planning.selections import are_rows, as_edge, as_zone, compass_part, is_one_row, over
+from fieldhand.site.model import Site
 from fieldhand.terms import CornerName, Side
 
 GRAMMAR = Grammar()
@@ -87,24 +89,25 @@ def corners(noun: Lex, n: int | None = None) -> Nominal | None:
 
 @construction(
     "place: [DET] MIDDLE in_ site",
-    "place: [DET] MIDDLE",
-    "place: [DET] MIDDLE TREE",
+    "place: [word=DET] MIDDLE",
+    "place: [word=DET] MIDDLE TREE",
     "place: [DET] MIDDLE ONE",
     "place: [DET] TREE NEAREST [AT] DET MIDDLE [in_] [site]",
     "place: DET TREE NEAR DET MIDDLE [in_] [site]",
     cost=0.2,
 )
-def middle() -> PlaceMeaning:
-    """Compose "the middle of the orchard"."""
-    return PlaceMeaning(s.Middle(), "one")
+def middle(word: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "the middle of the orchard"; "its middle" is that of something else."""
+    return None if word is not None and "of_it" in word.features else PlaceMeaning(s.Middle(), "one")
 
 
 @construction(
     "place: [DET] MIDDLE in_ where=region",
     "place: [DET] MIDDLE noun=TREE in_ where=region",
     cost=0.7,
+    given=("site",),
 )
-def middle_of(where: s.Selector, noun: Lex | None = None) -> PlaceMeaning | list[PlaceMeaning] | None:
+def middle_of(where: s.Selector, site: Site, noun: Lex | None = None) -> PlaceMeaning | list[PlaceMeaning] | None:
     """Compose "the middle of row 4" and "the middle tree of rows 3 and 4", of each of which there is one."""
     several = are_rows(where) and not is_one_row(where)
     of_each = PlaceMeaning(s.Middle(), "several", each=True, per=where)
@@ -112,6 +115,8 @@ def middle_of(where: s.Selector, noun: Lex | None = None) -> PlaceMeaning | list
         return of_each if several else None
     if several:  # of each row, or of the area that they are?
         return [of_each, PlaceMeaning(s.Middle(of=where), "one")]
+    if noun is None and compass_part(where) is not None and (free := bare_points(where, site, 1)) is not None:
+        return PlaceMeaning(free, "one")
     if (zone := as_zone(where)) is not None:
         return PlaceMeaning(s.PointsIn(zone=zone.zone), "one") if not zone.outside else None
     if (edge := as_edge(where)) is not None:

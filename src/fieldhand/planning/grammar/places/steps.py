@@ -76,14 +76,23 @@ def on_side(side: Lex, part: Lex | None = None) -> Side | None:
     "place: [DET] [inner=nominal] OPPOSITE to=place COMMA side=on_side",
     "place: [DET] [inner=nominal] OPPOSITE side=on_side OF to=place",
     "place: [DET] inner=nominal OPPOSITE [side=on_side]",
+    "place: [DET] inner=nominal OPPOSITE [IT] in_ rows=rows", "place: [DET] inner=nominal OPPOSITE IT",
     cost=0.2,
-)
+)  # fmt: skip
 def opposite(
-    to: PlaceMeaning | None = None, inner: Nominal | None = None, side: CountedFrom = "usual"
+    to: PlaceMeaning | None = None,
+    inner: Nominal | None = None,
+    side: CountedFrom = "usual",
+    rows: s.Selector | None = None,
 ) -> PlaceMeaning | None:
-    """Compose "the tree opposite tree 12" and "the tree across the aisle to the south of tree 12"."""
-    if inner is not None and (inner.plural or inner.single or inner.selector != s.Trees()):
+    """Compose "the tree opposite tree 12", "the tree across the aisle to the south of tree 12" and "... in row 2"."""
+    if inner is not None and (inner.single or (inner.plural and not inner.unmarked)):
         return None
+    known = s.Trees() if inner is None else inner.selector
+    known = known if rows is None else over(known, rows)
+    if known != s.Trees():  # the dialogue checks that it is one of these
+        of_those = PlaceMeaning(s.Across(origin=s.Here(), side=side), "one", per=known)
+        return of_those if to is None and chooses_from_trees(known) else None
     if to is None:
         return PlaceMeaning(s.Across(origin=s.Here(), side=side), "one")
     return PlaceMeaning(s.Across(origin=to.selector, side=side), "one") if to.shape in ("one", "here") else None

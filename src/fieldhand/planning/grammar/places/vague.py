@@ -62,6 +62,12 @@ def by_quality(rank: Lex, site: Site) -> list[Choice] | None:
     return [Choice("best", (name, rank.value[1])) for name in qualities(site)] or None
 
 
+@construction("VAGUEADJ: TOO word=VAGUEADJ", "VAGUEADJ: word=VAGUEADJ ENOUGH", cost=0.0)
+def vague_in_some_degree(word: Lex) -> Lex:
+    """Compose "too dry" and "tall enough"."""
+    return word
+
+
 @construction("vague: word=VAGUEADJ inner=nominal", "vague: inner=nominal WHICH IS word=VAGUEADJ", cost=0.0)
 def vaguely(word: Lex, inner: Nominal) -> tuple[Nominal, tuple[str, bool], str] | None:
     """Compose "weak vines"."""

@@ -267,8 +267,8 @@ class SimulatedRobot:
             FOLLOW_PATH,
             navigation.follow_path,
         ):
-            action, kind = navigation.working_action, navigation.working
-            self._servers.append(serve(action, kind, handler(action, kind)))
+            works, works_by = navigation.working_action, navigation.working
+            self._servers.append(serve(works, works_by, handler(works, works_by)))
         states = [LifecycleServer(transport, bindings.whole_name(node)) for node in navigation.nodes]
         self._servers += states[1:]
         action, kind = navigation.action, navigation.type

@@ -1,0 +1,61 @@
+"""Constructions of where plants are counted from, behind what is done there: "and count from the north end"."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.commands.clauses import Adjunct
+from fieldhand.planning.grammar.meaning import CaptureCommand
+from fieldhand.planning.grammar.places.compass import SIDES
+from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import as_every_nth, as_in_row, swapped
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+
+@construction(
+    "counting: COUNTED [DET] side=DIR [FINISH]", "counting: COUNTED [DET] side=DIR SIDE",
+    "counting: COUNTED [DET] FINISH in_ [DET] side=DIR", cost=0.0,
+)  # fmt: skip
+def counting(side: Lex) -> str | None:
+    """Compose "counting from the north end"."""
+    return side.value if side.value in SIDES else None
+
+
+@construction(
+    "adjunct: [and_or_but] side=counting",
+    "adjunct: [and_or_but] side=counting INEACHCASE",
+    "adjunct: [and_or_but] side=counting INEACH",
+    "adjunct: [and_or_but] side=counting in_ EACH ROW",
+    "adjunct: [and_or_but] side=counting in_ EACH OF IT",
+    "adjunct: [and_or_but] side=counting OF EACH ROW",
+    "adjunct: [and_or_but] side=counting PER ROW",
+    cost=0.3,
+)
+def counted(side: str) -> Adjunct:
+    """Compose "and count from the north end each time"."""
+    return Adjunct(_counted, side, of_place=True, is_sentence=True)
+
+
+def _counted(command: CaptureCommand, side: str) -> CaptureCommand | None:
+    """Return a command at places that are counted from a side; None if none of them is counted, or from elsewhere."""
+    place = command.place
+    if place is None:
+        return None
+    selectors = [place.selector] if place.per is None else [place.selector, place.per]
+    counted = [one for selector in selectors for one in selector.walk() if as_every_nth(one) or as_in_row(one)]
+    if not counted or any(getattr(one, "counted_from", "") != "usual" for one in counted):
+        return None
+    made = place.selector
+    for one in counted:
+        made = swapped(made, one, _from_side(one, side))
+    return None if made == place.selector else replace(command, place=replace(place, selector=made))
+
+
+def _from_side(one: s.Selector, side: str) -> s.Selector:
+    """Return every n-th tree, or trees by their numbers in the row, counted from a side."""
+    known = as_every_nth(one) or as_in_row(one)
+    return one if known is None else replace(known, counted_from=side)

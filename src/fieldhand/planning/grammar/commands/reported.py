@@ -1,0 +1,294 @@
+"""Constructions of what the report of a mission says anyway: "and tell me the average", "how far apart are they?".
+
+The report lists each reading, and of all readings of a quantity their lowest, mean, median and highest. To ask for it
+behind the captures asks for nothing more, if it is about these captures.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.meaning import (
+    CaptureCommand,
+    Connective,
+    LinkedCommand,
+    PlaceMeaning,
+    Reported,
+    Said,
+    Thing,
+)
+from fieldhand.planning.grammar.meaning import Subject as Statistic
+from fieldhand.planning.grammar.words import Lex
+from fieldhand.robot.model import RobotProfile
+
+GRAMMAR = Grammar()
+construction = GRAMMAR.construction
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """What is asked for of the readings.
+
+    Attributes:
+        quantities: Quantities that the phrase names.
+        places: Places that it names.
+        asks: True for a clause that asks ("which is higher").
+        extreme: True for the place with the highest or lowest reading ("the driest one").
+    """
+
+    quantities: tuple[str, ...] = ()
+    places: tuple[PlaceMeaning, ...] = ()
+    asks: bool = False
+    extreme: bool = False
+
+
+@construction("finding: one=statistic", cost=0.1)
+def statistic(one: Statistic) -> Finding:
+    """Compose "the average" and "the mean CO2 of the slope"."""
+    quantities = (one.quantity,) if one.quantity else ()
+    extreme = one.of in ("minimum", "maximum") and not quantities
+    return Finding(quantities, () if one.place is None else (one.place,), extreme=extreme)
+
+
+@construction("finding: [DET] STATISTIC READING", cost=0.2)
+def value() -> Finding:
+    """Compose "the highest value"."""
+    return Finding()
+
+
+@construction(
+    "finding: [DET] [n=count] FIGURES",
+    "finding: [DET] [n=count] noun=NOUN FIGURES",
+    "finding: [DET] [n=count] FIGURES OF [DET] noun=NOUN",
+    cost=0.2,
+)
+def figures(noun: Lex | None = None, n: int = 0) -> list[Finding]:
+    """Compose "the averages" and "the difference"."""
+    del n
+    quantities = () if noun is None else tuple(dict.fromkeys(noun.value.quantities))
+    return [Finding((one,)) for one in quantities] or [Finding()]
+
+
+@construction(
+    "readings_said: word=DET [n=count] READFIGURES",
+    "readings_said: EACH [DET] [n=count] READFIGURES",
+    "readings_said: EACH [DET] READING",
+    "readings_said: readings_said WITHEACHOTHER",
+    "readings_said: word=DET [n=count] noun=NOUN READFIGURES",
+    cost=0.2,
+)
+def readings_said(word: Lex | None = None, noun: Lex | None = None, n: int = 0) -> list[Finding] | None:
+    """Compose "the two values" and "all the readings"."""
+    if word is not None and "indefinite" in word.features:
+        return None
+    return figures(noun, n)
+
+
+@construction(
+    "finding: WHICHONE [of_the_two] IS [BYFAR] BARECMP",
+    "finding: WHICHONE [of_the_two] IS [BYFAR] [DET] STATISTIC [ONE]",
+    "finding: WHICHONE [of_the_two] IS [BYFAR] [DET] MOSTREAD [ONE]",
+    "finding: WHICHONE [of_the_two] IS one=statistic",
+    "finding: DIFFERS",
+    "finding: DIFFERS IS",
+    "finding: WHERE IT IS STATISTIC",
+    "finding: WHERE IT IS MOSTREAD",
+    "finding: WHERE [DET] noun=NOUN IS STATISTIC",
+    "finding: WHERE [DET] noun=NOUN IS MOSTREAD",
+    cost=0.2,
+)
+def which_is_more(one: Statistic | None = None, noun: Lex | None = None) -> Finding | None:
+    """Compose "which is higher", "which of the two is driest", "where it is highest" and "how far apart they are"."""
+    found = Finding() if one is None else statistic(one)
+    if noun is not None:
+        if len(noun.value.quantities) != 1:
+            return None
+        found = Finding((noun.value.quantities[0],))
+    return Finding(found.quantities, found.places, asks=True)
+
+
+@construction(
+    "finding: WHICHONE [of_the_two] IS [BYFAR] BARECMP [COMMA] one=place OR other=place",
+    "finding: WHICHONE [of_the_two] IS [BYFAR] BARECMP [COMMA] [relation] one=place OR relation other=place",
+    cost=0.2,
+)
+def which_of_those(one: PlaceMeaning, other: PlaceMeaning) -> Finding:
+    """Compose "which is wetter, the slope or the paddock"."""
+    return Finding(places=(one, other), asks=True)
+
+
+@construction(
+    "of_the_two: ONE",
+    "of_the_two: OFTHEALL",
+    "of_the_two: ONE OFTHEALL",
+    "of_the_two: OF DET n=count",
+    "of_the_two: ONE OF DET n=count",
+    "of_the_two: noun=TREE",
+    "of_the_two: noun=ROW",
+    "of_the_two: noun=PLOT",
+    "of_the_two: noun=POINT",
+    "of_the_two: noun=READING",
+    "of_the_two: OFTHEM",
+    "of_the_two: ONE OFTHEM",
+    "of_the_two: OF DET n=count POINT",
+    "of_the_two: PARTWORD",
+    "of_the_two: OF DET n=count PARTWORD",
+    "of_the_two: OF DET n=count TREE",
+    "of_the_two: OF DET n=count ROW",
+    cost=0.1,
+)
+def of_them(n: int = 0, noun: Lex | None = None) -> str:
+    """Compose "one", "of the two" and "bed" of "which bed is wetter"."""
+    del n, noun
+    return "of them"
+
+
+@construction(
+    "finding: one=finding OFTHEALL",
+    "finding: one=finding of_the_two",
+    "finding: one=finding BETWEEN DET [n=count] [FIGURES]",
+    "finding: one=finding OF DET n=count FIGURES",
+    "finding: one=finding OF DET FIGURES",
+    "finding: one=finding OF DET READING",
+    "finding: one=finding ONAVERAGE",
+    "finding: one=finding PER PARTWORD",
+    "finding: one=finding PER TREE",
+    "finding: one=finding PER ROW",
+    "finding: one=finding INEACHCASE",
+    "finding: one=finding WITHEACHOTHER",
+    "finding: one=finding PERROUND",
+    cost=0.1,
+)
+def of_all(one: Finding, n: int = 0) -> Finding:
+    """Compose "the average of the five" and "which is higher each time"."""
+    del n
+    return one
+
+
+@construction(
+    "finding: one=finding relation place=place",
+    "finding: one=finding BETWEEN place=place",
+    "finding: one=finding FOR place=place",
+    "finding: one=finding PER place=place",
+    cost=0.2,
+)
+def figure_at(one: Finding, place: PlaceMeaning) -> Finding | None:
+    """Compose "the difference between the slope and the paddock"."""
+    return None if place.refers_back else Finding(one.quantities, (*one.places, place), one.asks)
+
+
+@construction(
+    "finding: first=finding AND second=finding",
+    "finding: first=finding COMMA second=finding",
+    "finding: first=finding COMMA AND second=finding",
+    "finding: first=finding TOGETHERWITH second=finding",
+    cost=0.1,
+)
+def both(first: Finding, second: Finding) -> Finding:
+    """Compose "the mean and the highest one"."""
+    return Finding((*first.quantities, *second.quantities), (*first.places, *second.places), first.asks and second.asks)
+
+
+@construction(
+    "report_wish: TELLME figure=finding",
+    "report_wish: TELLME INEACHCASE [COMMA] figure=finding",
+    "report_wish: TELLME figure=readings_said",
+    "report_wish: figure=finding TELLSUS",
+    "report_wish: ASKFOR [COMMA] figure=finding",
+    "report_wish: COMPARES figure=finding",
+    "report_wish: COMPARES figure=readings_said",
+    "report_wish: COMPARES figure=them_all",
+    "report_wish: WHATIS figure=finding",
+    "report_wish: IS figure=finding",
+    cost=0.1,
+)
+def report_wish(figure: Finding) -> Finding:
+    """Compose "tell me the average" and "compare the averages"."""
+    return figure
+
+
+@construction("report_wish: TELLME figure=readings_said TOGETHERWITH more=finding", cost=0.1)
+@construction("report_wish: TELLME figure=readings_said [COMMA] AND more=finding", cost=0.1)
+def readings_and_more(figure: Finding, more: Finding) -> Finding:
+    """Compose "list all the readings and the mean"."""
+    return both(figure, more)
+
+
+@construction(
+    "capture: TELLME DET STATISTIC [OF] [DET] things=things way=relation place=place",
+    "capture: WHATIS DET STATISTIC [OF] [DET] things=things way=relation place=place",
+    "capture: COMPARES [DET] [STATISTIC] [OF] [DET] things=things way=relation place=place",
+    cost=0.4,
+)
+def measured_for(things: tuple[Thing, ...], way: str, place: PlaceMeaning, used: int) -> CaptureCommand | None:
+    """Compose "report the mean of CO2 at four spots on the slope" and "compare CO2 on the slope and on the bank"."""
+    return CaptureCommand(things, place, used, relation=way) if place.shape in ("one", "several", "area") else None
+
+
+@construction("them_all: THEMALL [WITHEACHOTHER]", cost=0.1)
+def them_all() -> Finding:
+    """Compose "the two" of "compare the two"."""
+    return Finding()
+
+
+@construction("report_wish: GETFIGURE figure=finding", cost=0.3)
+def wanted_figure(figure: Finding) -> Finding | None:
+    """Compose "give me the average"; "get the driest one" may be about the place."""
+    return None if figure.extreme else figure
+
+
+@construction("report_wish: figure=finding", cost=0.2)
+def asked(figure: Finding) -> Finding | None:
+    """Compose "which is higher?"."""
+    return figure if figure.asks else None
+
+
+@construction(
+    "report_wish: first=report_wish [COMMA] AND second=report_wish",
+    "report_wish: first=report_wish COMMA second=report_wish",
+    cost=0.2,
+)
+def told_both(first: Finding, second: Finding) -> Finding:
+    """Compose "work out the average and tell me which is higher"."""
+    return both(first, second)
+
+
+@construction("said: before=said joint=joint figure=report_wish", cost=0.3, given=("robot",))
+@construction("said: before=said figure=report_wish", cost=0.6, given=("robot",))
+def reported(
+    before: Said, figure: Finding, used: int, robot: RobotProfile, joint: Connective | None = None
+) -> Said | None:
+    """Compose "read CO2 at trees 4 and 9 and tell me the average", of what is read there."""
+    done = [one.command for one in before.clauses if isinstance(one.command, CaptureCommand)]
+    if not done or not (joint is None or joint.full or joint.both or joint.bare or joint.then):
+        return None
+    read = {name for one in done for thing in one.things for name in _measured(thing.action, robot)}
+    known = {zone for one in before.clauses for zone in _places(getattr(one.command, "place", None))}
+    if not read or not {*figure.quantities} <= read or not all(_places(one) <= known for one in figure.places):
+        return None
+    own = used
+    for clause in before.clauses:
+        own &= ~(clause.command.used | (0 if clause.before is None else clause.before.used))
+    if joint is not None:
+        own &= ~joint.used
+    return Said((*before.clauses, LinkedCommand(joint, Reported(own))))
+
+
+def _measured(action: str, robot: RobotProfile) -> frozenset[str]:
+    """Return what an action measures; of one that is not known yet, all that the robot measures."""
+    known = robot.action.get(action)
+    return frozenset(robot.quantity) if known is None else frozenset(known.measures)
+
+
+def _places(place: PlaceMeaning | None) -> set[str]:
+    """Return the names of the zones, rows and plants that a place names."""
+    found: set[str] = set()
+    for part in () if place is None else place.selector.walk():
+        zone = str(getattr(part, "zone", ""))
+        if zone or not any(True for _ in part.inner):
+            found.add(zone or repr(part))
+        elif getattr(part, "of", None) == s.Trees():
+            found.add(repr(part))
+    return found - {repr(s.Trees()), repr(s.Here())}
