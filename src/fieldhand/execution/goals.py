@@ -10,7 +10,7 @@ from collections.abc import Callable, Generator, Mapping
 from fieldhand.errors import ActionFault, BlockedFault, DriveFault, LostFault, OccupiedFault
 from fieldhand.execution.active_mission import ActiveMission
 from fieldhand.execution.docking import ChargeFirst, leave_charger
-from fieldhand.execution.navigation_waits import Interruptions, wait_for_navigation, wait_for_others
+from fieldhand.execution.navigation_waits import Interruptions, wait_for_robot
 from fieldhand.execution.obstacles import avoid, avoid_stand, wait_for_way
 from fieldhand.execution.waiting import wait, wait_for_position
 from fieldhand.language import joined, message
@@ -61,9 +61,7 @@ def drive(
     tries, stops, waited, obstacle, occupied = mission.robot.retries + 1, 0, not patient, "", False
     interruptions = Interruptions(mission, node)
     while True:
-        yield from wait_for_position(mission, node)
-        yield from wait_for_navigation(mission, node)
-        yield from wait_for_others(mission)
+        yield from wait_for_robot(mission, node)
         try:
             mission.start_drive(node, place)
         except DriveFault as fault:

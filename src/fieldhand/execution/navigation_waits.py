@@ -7,7 +7,7 @@ from __future__ import annotations
 from fieldhand.errors import DriveFault
 from fieldhand.execution.active_mission import ActiveMission
 from fieldhand.execution.drivers.protocol import Progress
-from fieldhand.execution.waiting import wait
+from fieldhand.execution.waiting import wait, wait_for_position
 from fieldhand.language import joined, message
 from fieldhand.task.results import Continued, Faulted, Paused, Waited
 from fieldhand.task.run import Steps
@@ -20,7 +20,22 @@ _ON_M = 1.0
 _MOST = 20
 
 
-def wait_for_navigation(mission: ActiveMission, node: str) -> Steps:
+def wait_for_robot(mission: ActiveMission, node: str) -> Steps:
+    """Wait until a drive can begin: for the position, for the navigation, and while another client drives the robot.
+
+    Raises:
+        LostFault: The position is still unknown.
+        DriveFault: The navigation still cannot be used.
+    """
+    yield from wait_for_position(mission, node)
+    yield from _wait_for_navigation(mission, node)
+    if mission.observation.taken is not None:
+        yield from _wait_for_others(mission, mission.observation.taken)
+        yield from wait_for_position(mission, node)
+        yield from _wait_for_navigation(mission, node)
+
+
+def _wait_for_navigation(mission: ActiveMission, node: str) -> Steps:
     """Wait for a navigation that cannot be used, as long as the profile allows; while the mission is halted, for ever.
 
     Raises:
@@ -51,14 +66,11 @@ def wait_for_navigation(mission: ActiveMission, node: str) -> Steps:
         )
 
 
-def wait_for_others(mission: ActiveMission) -> Steps:
+def _wait_for_others(mission: ActiveMission, why: str) -> Steps:
     """Pause while another client drives the robot, as long as the profile says or until an operator ends the pause.
 
     Then the mission takes the robot back, wherever it is.
     """
-    why = mission.observation.taken
-    if why is None:
-        return
     before, patience = mission.observation.order, mission.robot.patience.taken_wait_s
     most = message("the mission goes on in {seconds} s, or when it is resumed", context="log", seconds=f"{patience:g}")
     mission.emit(Paused(t=mission.t, reason=joined("; ", (why, most))))

@@ -14,10 +14,10 @@ from fieldhand.errors import ActionFault, BlockedFault, DriveFault, LostFault
 from fieldhand.execution.active_mission import ActiveMission
 from fieldhand.execution.docking import ChargeFirst
 from fieldhand.execution.goals import MOST_STOPS, drive
-from fieldhand.execution.navigation_waits import Interruptions, wait_for_navigation, wait_for_others
+from fieldhand.execution.navigation_waits import Interruptions, wait_for_robot
 from fieldhand.execution.obstacles import avoid
 from fieldhand.execution.stretch_visits import StretchVisits
-from fieldhand.execution.waiting import wait, wait_for_position
+from fieldhand.execution.waiting import wait
 from fieldhand.forecast.working import begin_of, end_of
 from fieldhand.language import joined, message
 from fieldhand.site.model import Place
@@ -51,9 +51,7 @@ def work(mission: ActiveMission, node: WorkAlong, tour: StretchVisits) -> Steps:
     missed_m, why = 0.0, ""
     interruptions = Interruptions(mission, node.id)
     while True:
-        yield from wait_for_position(mission, node.id)
-        yield from wait_for_navigation(mission, node.id)
-        yield from wait_for_others(mission)
+        yield from wait_for_robot(mission, node.id)
         attempt += 1
         mission.start_stretch(node, rest, attempt)
         broken_off = False
