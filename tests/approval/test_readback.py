@@ -127,6 +127,20 @@ def test_the_visits_that_go_first_are_named_where_they_are_few():
     assert re.search(r"\d+ of 20 expected, \d+ % chance of running short; trees? .* (is|are) left out first\)", tight)
 
 
+@pytest.mark.parametrize(
+    ("reward_by", "said"),
+    [
+        ("value", ", preferring high age years ("),
+        ("lowest", ", those with the lowest age years first (worth most) ("),
+        ("highest", ", those with the highest age years first (worth most) ("),
+    ],
+)
+def test_the_visits_that_are_worth_most_are_said(reward_by, said):
+    each = ForEach(id="", select=Trees(), body=act(), optional=True, reward="age_years", reward_by=reward_by)
+    words = read(each, constraints=Constraints(budgets=(Budget(kind="distance_m", limit=80.0),)))
+    assert f"trees as the budget allows{said}" in words.lines[0].text
+
+
 def test_a_relative_place_after_optional_visits_is_never_promised():
     plan = InOrder(
         id="",

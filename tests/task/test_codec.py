@@ -211,6 +211,7 @@ MORNING = DayTime(clock="06:30")
         StartTime(day="tomorrow", not_before=MORNING, not_after=DayTime(sun="sunrise", offset_min=-30), said=((0, 4),)),
         StartTime(done_by=DayTime(sun="dusk"), time_zone="Europe/Rome"),
         Schedule(at=(MORNING,), weekdays=("mon", "fri"), every_days=2, first_day="--03-01", last_day="2027-12-31"),
+        Schedule(at=(DayTime(sun="sunrise"),), late_min=1440, done_by=DayTime(sun="sunset"), last_day="today"),
         Schedule(
             every_min=120, until=DayTime(clock="18:00"), late_min=5, missed="late", done_by_min=90, said=((0, 4),)
         ),

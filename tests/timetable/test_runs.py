@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from datetime import UTC, date, datetime, timedelta
 from itertools import islice, pairwise
 from pathlib import Path
@@ -55,10 +56,42 @@ MONDAY = datetime(2027, 3, 1, 12, 0, tzinfo=ROME)
             Schedule(at=(DayTime(clock="08:00"),), every_min=240, until=DayTime(clock="16:00")),
             ["Mon 01 16:00", "Tue 02 08:00", "Tue 02 12:00", "Tue 02 16:00", "Wed 03 08:00"],
         ),
+        (
+            Schedule(at=(DayTime(clock="06:00"), DayTime(clock="12:00")), done_by=DayTime(sun="sunset")),
+            ["Tue 02 06:00", "Tue 02 12:00", "Wed 03 06:00"],
+        ),
     ],
 )
 def test_a_schedule_has_these_runs(schedule: Schedule, runs: list[str]) -> None:
     assert local_runs(schedule, calendar(MONDAY), len(runs)) == runs
+
+
+def test_a_run_of_a_part_of_the_day_may_begin_as_long_as_it_is_done_by_its_end() -> None:
+    morning = Schedule(at=(DayTime(sun="sunrise"),), late_min=24 * 60, done_by=DayTime(clock="12:00"))
+    night = Schedule(at=(DayTime(clock="22:00"),), late_min=24 * 60, done_by=DayTime(clock="04:00"))
+    soon = replace(night, late_min=30, done_by_min=60)
+    found = []
+    for schedule in (morning, night, soon):
+        run = next(calendar(MONDAY, lasts_s=3600.0).runs(schedule, MONDAY))
+        found.append((shown(run.due), shown(run.latest), shown(run.done_by)))
+    assert found == [
+        ("02 06:51", "02 11:00", "02 12:00"),
+        ("01 22:00", "02 03:00", "02 04:00"),
+        ("01 22:00", "01 22:30", "01 23:00"),
+    ]
+    # A run that takes longer than its part of the day has no time to begin late.
+    (long,) = islice(calendar(MONDAY, lasts_s=7 * 3600.0).runs(morning, MONDAY), 1)
+    assert long.latest == long.due
+
+
+@pytest.mark.parametrize(
+    ("first", "last", "day"),
+    [("tomorrow", "today", 2), ("fri", "today", 5), ("+3", "today", 4), ("today", "today", 1), ("--03-09",) * 2 + (9,)],
+)
+def test_several_runs_of_one_day(first: str, last: str, day: int) -> None:
+    at = (DayTime(clock="13:00"), DayTime(clock="18:00"))
+    runs = local_runs(Schedule(at=at, first_day=first, last_day=last), calendar(MONDAY), 9)
+    assert [run[4:] for run in runs] == [f"{day:02d} 13:00", f"{day:02d} 18:00"]
 
 
 def test_a_schedule_ends_with_its_last_day_or_the_approval() -> None:

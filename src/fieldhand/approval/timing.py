@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from datetime import UTC, datetime, timedelta
+from collections.abc import Iterator, Sequence
+from datetime import UTC, datetime, timedelta, timezone
 from itertools import islice
 
 from fieldhand.approval.problem import PlanProblem
@@ -14,7 +14,7 @@ from fieldhand.language.words import say_duration
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
 from fieldhand.task.timing import Schedule, StartTime
-from fieldhand.timetable.runs import Calendar
+from fieldhand.timetable.runs import Calendar, DueRun
 
 #: Any day will do: a Task with a wrong time is wrong on every day. The approval's own dates are not known yet.
 _SOME_DAY = datetime(2027, 3, 1, tzinfo=UTC)
@@ -37,7 +37,8 @@ def timing_problems(task: Task, site: Site, estimate: Estimate) -> Iterator[Plan
     calendar = Calendar(
         approved=_SOME_DAY,
         expires=_SOME_DAY + timedelta(days=366),
-        zone=UTC,
+        # Without a time zone, the sun and the clock are those of the site's longitude.
+        zone=timezone(timedelta(hours=round(site.start.lon / 15.0))),
         lat=site.start.lat,
         lon=site.start.lon,
     )
@@ -56,6 +57,7 @@ def timing_problems(task: Task, site: Site, estimate: Estimate) -> Iterator[Plan
         yield from _too_short(timing, lasts_s, calendar)
         return
     yield from _too_often(timing, lasts_s)
+    yield from _too_long(timing, lasts_s, runs)
 
 
 def _dated(timing: StartTime | Schedule) -> bool:
@@ -67,17 +69,30 @@ def _too_short(start: StartTime, lasts_s: float, calendar: Calendar) -> Iterator
     for run in calendar.runs(start, calendar.approved - timedelta(seconds=1)):
         if run.done_by is None or start.not_before is None:
             continue
-        window_s = (run.done_by - run.due).total_seconds()
-        if 0 <= window_s < lasts_s:
-            yield PlanProblem(
-                where=message("times"),
-                what=message(
-                    "the mission takes up to {time}, but between its first and its last moment are only {window}",
-                    time=say_duration(lasts_s),
-                    window=say_duration(window_s),
-                ),
-                advice=message("visit fewer places, or give it more time"),
-            )
+        yield from _between(run, lasts_s)
+
+
+def _too_long(schedule: Schedule, lasts_s: float, runs: Sequence[DueRun]) -> Iterator[PlanProblem]:
+    """Yield a problem if no run of a schedule can be done by its time of the day."""
+    if schedule.done_by is None:
+        return
+    longest = max(runs, key=lambda run: (run.done_by or run.due) - run.due, default=None)
+    if longest is not None:
+        yield from _between(longest, lasts_s)
+
+
+def _between(run: DueRun, lasts_s: float) -> Iterator[PlanProblem]:
+    window_s = 0.0 if run.done_by is None else (run.done_by - run.due).total_seconds()
+    if run.done_by is not None and 0 <= window_s < lasts_s:
+        yield PlanProblem(
+            where=message("times"),
+            what=message(
+                "the mission takes up to {time}, but between its first and its last moment are only {window}",
+                time=say_duration(lasts_s),
+                window=say_duration(window_s),
+            ),
+            advice=message("visit fewer places, or give it more time"),
+        )
 
 
 def _too_often(schedule: Schedule, lasts_s: float) -> Iterator[PlanProblem]:

@@ -320,9 +320,9 @@ class LimitMonitor:
 
     def _pace_look_in(self, charge: float) -> float:
         """Return the seconds until the pace of the current drive is looked at; infinite if no pace matters."""
-        if not self._watches_pace:
-            return math.inf
         mission, doing = self._mission, self._mission.doing
+        if not self._watches_pace or not isinstance(doing, OpenDrive):
+            return math.inf
         self._pace.look()
         on_m, after_m, _ = self._ways(doing, to_charger=True)
         constraints, robot = mission.task.constraints, mission.robot

@@ -11,7 +11,7 @@ from fieldhand.forecast.mission_state import Visit
 from fieldhand.forecast.remaining_work import arrived, every_answer
 from fieldhand.forecast.request_handler import ForecastHandler
 from fieldhand.forecast.resource_limits import speed_of
-from fieldhand.forecast.service import reward_of, work_of
+from fieldhand.forecast.service import rewards_of, work_of
 from fieldhand.forecast.walk_state import Answers
 from fieldhand.forecast.walk_steps import work_in
 from fieldhand.places.context import Context
@@ -50,11 +50,11 @@ class OptionalVisits:
         visits = [
             Visit(
                 place=place,
-                reward=reward_of(node, place, self._site),
+                reward=reward,
                 service_s=work.seconds,
                 service_j=work.joules,
             )
-            for place in places
+            for place, reward in zip(places, rewards_of(node, places, self._site), strict=True)
         ]
         if all(inner.selector is None for inner in plan.walk(node.body)):
             return tuple(visits)

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Sequence
 
 from fieldhand.forecast.mission_state import Work
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.plan import Act, Node, Recharge
+
+#: Share of the places of a ranking with which the worth of a visit halves.
+_HALVES_WITH = 0.05
 
 
 def service_of(node: Node, robot: RobotProfile) -> tuple[float, float]:
@@ -66,8 +70,30 @@ def reward_of(node: Node, place: Place, site: Site) -> float:
     """Return the reward of a visit: the tree attribute named by the for-each (0 if the tree lacks it), by default 1."""
     if not node.rewarded_by:
         return 1.0
+    value = _value_of(node.rewarded_by, place, site)
+    return 0.0 if value is None else max(0.0, value)
+
+
+def rewards_of(node: Node, places: Sequence[Place], site: Site) -> list[float]:
+    """Return the rewards of the visits of a for-each.
+
+    By rank, the first is worth 1, and the worth halves with every 5 % of the places, so that a drive to a good one is
+    worth more than several visits on the way. Equal values share the best of their ranks; a place without a value is
+    worth nothing.
+    """
+    first = node.rewarded_first
+    if not node.rewarded_by or first == "value":
+        return [reward_of(node, place, site) for place in places]
+    values = [_value_of(node.rewarded_by, place, site) for place in places]
+    known = sorted((value for value in values if value is not None), reverse=first == "highest")
+    ranks: dict[float, int] = {}
+    for rank, value in enumerate(known, start=1):
+        ranks.setdefault(value, rank)
+    return [0.0 if value is None else 0.5 ** ((ranks[value] - 1) / (_HALVES_WITH * len(known))) for value in values]
+
+
+def _value_of(attribute: str, place: Place, site: Site) -> float | None:
+    """Return the number that an attribute of a tree is; None without one."""
     tree = site.by_id.get(place.id) if place.kind == "tree" else None
-    value = None if tree is None else tree.properties.get(node.rewarded_by)
-    if not isinstance(value, int | float) or not math.isfinite(value):
-        return 0.0
-    return max(0.0, float(value))
+    value = None if tree is None else tree.properties.get(attribute)
+    return float(value) if isinstance(value, int | float) and math.isfinite(value) else None

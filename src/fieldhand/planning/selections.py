@@ -270,6 +270,11 @@ def drawn_like(some: s.Selector, before: s.Selector) -> s.Selector:
     return s.RandomSample(count=some.count, of=some.of) if isinstance(some, s.Take) else some
 
 
+def as_spread_points(selector: s.Selector) -> s.PointsIn | None:
+    """Return the selector if it spreads free points over a zone, None if it draws them or selects others."""
+    return selector if isinstance(selector, s.PointsIn) and not selector.random else None
+
+
 def as_corners(selector: s.Selector) -> s.Corners | None:
     """Return the selector if it selects corner trees, None otherwise."""
     return selector if isinstance(selector, s.Corners) else None

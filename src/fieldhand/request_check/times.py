@@ -49,7 +49,7 @@ def _numbers(timing: Timing) -> Iterator[float]:
         times: tuple[DayTime | None, ...] = (timing.not_before, timing.not_after, timing.done_by)
         yield from _of_day(timing.day)
     else:
-        times = (*timing.at, timing.until)
+        times = (*timing.at, timing.until, timing.done_by)
         yield from _of_schedule(timing)
     for at in times:
         if at is not None and at.sun is None:

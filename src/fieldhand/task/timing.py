@@ -71,11 +71,13 @@ class Schedule:
         weekdays: Days of the week; empty for all.
         every_days: 2 for every other day.
         first_day, last_day: First and last day, in the words of :attr:`StartTime.day`; without them the schedule begins
-            when it is approved, and ends when the approval expires.
-        late_min: Minutes after a run is due within which it may still begin.
+            when it is approved, and ends when the approval expires. ``today`` as last day is the first day.
+        late_min: Minutes after a run is due within which it may still begin, if it is done by ``done_by``.
         missed: ``skip`` leaves out a run that could not begin in time; ``late`` makes up for it as soon as possible,
             until the next one is due.
         done_by_min: Minutes after a run is due by which it is done; 0 for no such limit.
+        done_by: Time of the day by which a run is done; one earlier than that at which the run is due is meant of the
+            next day.
         time_zone: As in :class:`StartTime`.
         said: Character ranges of the request that state it.
     """
@@ -90,9 +92,13 @@ class Schedule:
     late_min: int = 60
     missed: MissedRule = "skip"
     done_by_min: int = 0
+    done_by: DayTime | None = None
     time_zone: str = ""
     said: tuple[Span, ...] = ()
 
+
+#: Value of :attr:`Schedule.late_min` of a run that may begin late as long as it is done by :attr:`Schedule.done_by`.
+ANY_TIME_MIN = 24 * 60
 
 #: When a mission runs.
 Timing: TypeAlias = StartTime | Schedule

@@ -128,15 +128,19 @@ class Calendar:
 
     def _of_day(self, schedule: Schedule, day: date, locality: Locality) -> tuple[DueRun, ...]:
         dues = _clock_times(schedule, day, locality)
-        done = timedelta(minutes=schedule.done_by_min)
-        return tuple(
-            DueRun(
-                due=due,
-                latest=due + timedelta(minutes=schedule.late_min),
-                done_by=due + done if schedule.done_by_min else None,
-            )
-            for due in dues
-        )
+        end = None if schedule.done_by is None else instant(schedule.done_by, day, locality)
+        if end is None and schedule.done_by is not None:
+            return ()
+        return tuple(self._due(schedule, due, end) for due in dues)
+
+    def _due(self, schedule: Schedule, due: datetime, end: datetime | None) -> DueRun:
+        """Return the run of an instant; it may begin as long as it can be done by the end of its day."""
+        latest = due + timedelta(minutes=schedule.late_min)
+        ends = [due + timedelta(minutes=schedule.done_by_min)] if schedule.done_by_min else []
+        if (done := _later(end, due)) is not None:
+            ends.append(done)
+            latest = max(due, min(latest, done - timedelta(seconds=self.lasts_s)))
+        return DueRun(due=due, latest=latest, done_by=min(ends, default=None))
 
 
 def _clock_times(schedule: Schedule, day: date, locality: Locality) -> list[datetime]:

@@ -318,9 +318,21 @@ class _LineWriter:
         at = message("At as many of {trees} as the budget allows", trees=text)
         if node.at_most is not None:
             at = message("{at_places}, at most {count}", at_places=at, count=node.at_most)
-        if node.reward:
+        if node.reward and node.reward_by != "value":
+            at = self._best_first(node, at)
+        elif node.reward:
             at = message("{at_places}, preferring high {reward}", at_places=at, reward=say_name(node.reward))
         return message("{at_places} {expected}", at_places=at, expected=say_expected_visits(resolved))
+
+    def _best_first(self, node: ForEach, at: str) -> str:
+        named = say_name(node.reward)
+        if node.reward_by == "lowest":
+            return message(
+                "{at_places}, those with the lowest {attribute} first (worth most)", at_places=at, attribute=named
+            )
+        return message(
+            "{at_places}, those with the highest {attribute} first (worth most)", at_places=at, attribute=named
+        )
 
     def _repeat(self, node: Repeat, indent: int) -> None:
         times = say_times(node.times)

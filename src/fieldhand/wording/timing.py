@@ -7,7 +7,7 @@ from datetime import date
 
 from fieldhand.language import Number, counted, message
 from fieldhand.language.words import listed, say_duration, say_number
-from fieldhand.task.timing import DayTime, Schedule, StartTime, Weekday
+from fieldhand.task.timing import ANY_TIME_MIN, DayTime, Schedule, StartTime, Weekday
 
 _EVENTS = {
     "dawn": message("dawn"),
@@ -100,8 +100,12 @@ def _start(start: StartTime) -> Iterator[str]:
 
 
 def _schedule(schedule: Schedule) -> Iterator[str]:
-    yield message("Runs {days}, {times}.", days=_days(schedule), times=_times(schedule))
-    if schedule.first_day and schedule.last_day:
+    only_day = _is_one_day(schedule)
+    days = say_day(schedule.first_day) if only_day else _days(schedule)
+    yield message("Runs {days}, {times}.", days=days, times=_times(schedule))
+    if only_day:
+        pass
+    elif schedule.first_day and schedule.last_day:
         yield message(
             "The first run is {first}, the last {last}.",
             first=say_day(schedule.first_day),
@@ -112,7 +116,11 @@ def _schedule(schedule: Schedule) -> Iterator[str]:
     elif schedule.last_day:
         yield message("The last run is {last}.", last=say_day(schedule.last_day))
     late = say_duration(schedule.late_min * _MINUTE_S)
-    if schedule.missed == "late":
+    if schedule.done_by is not None:
+        yield message("Each run is done by {time}, including the way home.", time=say_day_time(schedule.done_by))
+    if schedule.done_by is not None and schedule.late_min >= ANY_TIME_MIN and schedule.missed == "skip":
+        yield message("A run that cannot begin in time for that is left out.")
+    elif schedule.missed == "late":
         yield message(
             "A run that cannot begin within {time} begins as soon as it can, until the next one is due.", time=late
         )
@@ -123,6 +131,12 @@ def _schedule(schedule: Schedule) -> Iterator[str]:
         yield message("Each run is done {time} after it is due, including the way home.", time=done)
     if not schedule.last_day:
         yield message("No run begins after the approval has expired.")
+
+
+def _is_one_day(schedule: Schedule) -> bool:
+    """Return True if the last day, which counts from the first one, is the first one."""
+    first, last = schedule.first_day, schedule.last_day
+    return bool(first) and (last == "today" or (first == last and first[:1] in "-0123456789"))
 
 
 def _days(schedule: Schedule) -> str:

@@ -101,6 +101,7 @@ def node(n: p.Node) -> str:
             return f"go {selector(n.place)}"
         case p.ForEach():
             how = (" given" if n.order == "given" else "") + (" optional" if n.optional else "")
+            how += f" {n.reward_by} {n.reward} first" if n.reward_by != "value" else ""
             how += f" at most {n.at_most}" if n.at_most else ""
             how += f" until {condition(n.until)}" if n.until else ""
             return f"for {selector(n.select)}{how}: [{node(n.body)}]"

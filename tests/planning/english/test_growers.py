@@ -23,9 +23,11 @@ from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Clarify, Outcome, Planned, Refused
 from fieldhand.robot.loader import load_robot
 from fieldhand.task.plan import walk
+from fieldhand.task.results import Acted
 from planning.english.outlines import outline
 from planning.english.vineyards import ALONG, ROWS, Vine, vines, vineyard
 from support.examples import examples
+from support.missions.flights import fly_task
 
 HUSKY = load_robot("husky")
 BY_ID = {vine.id: vine for vine in vines()}
@@ -70,6 +72,10 @@ EXACT: list[tuple[str, Callable[[Vine], bool]]] = [
     ("Take pictures of every 4th vine in row 8 of the south block starting with the second.", lambda v: not north(v) and v.row == 8 and v.place % 4 == 2),
     ("Take pictures of the Syrah vines in row 7 of the south block.", lambda v: not north(v) and v.row == 7),
     ("Take a picture at each corner of the north block and then come home.", lambda v: north(v) and v.row in (1, ROWS) and v.place in (1, ALONG)),
+    ("Every morning take pictures of row 12 of the north block.", lambda v: north(v) and v.row == 12),
+    ("Take pictures of row 12 of the north block tomorrow.", lambda v: north(v) and v.row == 12),
+    ("Take a picture of every second vine in row 5 of the north block, but only on weekdays.", lambda v: north(v) and v.row == 5 and v.place % 2 == 1),
+    ("Daily, measure CO2 at vine N250.", lambda v: v is N250),
     ("Measure CO2 at N250, N300 and N2.", lambda v: v.id in ("N250", "N300", "N2")),
     ("Take a picture at the corners of both blocks.", lambda v: v.row in (1, ROWS) and v.place in (1, ALONG)),
 ]  # fmt: skip
@@ -84,10 +90,6 @@ DRAWN: list[tuple[str, int, Callable[[Vine], bool]]] = [
 
 NOT_PLANNED = """
 Take pictures of row 12.
-Every morning take pictures of row 12 of the north block.
-Daily, measure CO2 at vine N250.
-Take pictures of row 12 of the north block tomorrow.
-Take a picture of every second vine in row 5 of the north block, but only on weekdays.
 Drive down rows 3 to 8 of the north block and spray.
 Mow between rows 10 and 14 of the north block.
 Count the grapes on 10 Syrah vines.
@@ -269,8 +271,25 @@ def test_a_word_that_no_plan_holds_is_never_dropped_in_silence(base: str) -> Non
             if not isinstance(outcome, Planned) or unaccounted(outcome.task) or outcome.task.command.warnings:
                 continue
             timed = outcome.task.timing is not None and any(
-                modifier in request[start:end].lower() for start, end in outcome.task.timing.said
+                modifier.lower() in request[start:end].lower() for start, end in outcome.task.timing.said
             )
             if not timed:
                 silent.append(request)
     assert silent == []
+
+
+def test_as_many_weak_vines_as_possible_are_weak() -> None:
+    """The budget decides how many; nearly all of them are among the weakest quarter, and without a ranking they are not."""
+    ranks = {vine.id: k for k, vine in enumerate(sorted(vines(), key=lambda vine: vine.vigor))}
+    shares = []
+    for request in (
+        "Take as many pictures of weak vines as you can in 10 minutes.",
+        "Take as many pictures of vines as you can in 10 minutes.",
+    ):
+        outcome = outcome_of(request)
+        assert isinstance(outcome, Planned), outcome
+        made = [event.place for event in fly_task(outcome.task, vineyard()).events if isinstance(event, Acted)]
+        assert len(made) > 5
+        shares.append(sum(ranks[place] < len(ranks) / 4 for place in made) / len(made))
+    assert shares[0] > 0.9
+    assert shares[1] < 0.6

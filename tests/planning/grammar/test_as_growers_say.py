@@ -78,6 +78,41 @@ PLANNED = [
         "photograph as many as you can of the 40 weakest vines in 15 minutes",
         "for Top(vigor, 40, True) optional: [picture] | duration_s 900",
     ),
+    (
+        "husky",
+        "photograph as many weak vines as possible in 15 minutes",
+        "for Trees optional lowest vigor first: [picture] | duration_s 900",
+    ),
+    (
+        "husky",
+        "in 10 minutes take as many pictures of weak Syrah vines as you can",
+        "for Where(variety, eq, Syrah) optional lowest vigor first: [picture] | duration_s 600",
+    ),
+    (
+        "husky",
+        "measure CO2 at the weakest vines, as many as you can within 12 minutes",
+        "for Trees optional lowest vigor first: [co2] | duration_s 720",
+    ),
+    (
+        "husky",
+        "photograph as many of the vines with the highest vigor in the south block as you can without driving more than 300 m",
+        "for InBlock(South) optional highest vigor first: [picture] | distance_m 300",
+    ),
+    (
+        "husky",
+        "take CO2 readings at the most vigorous vines of the north block, as many as possible in half an hour",
+        "for InBlock(North) optional highest vigor first: [co2] | duration_s 1800",
+    ),
+    (
+        "husky",
+        "photograph vines of low vigor in the south block, as many as you can within 300 m",
+        "for InBlock(South) optional lowest vigor first: [picture] | distance_m 300",
+    ),
+    (
+        "husky",
+        "photograph the Merlot vines with the lowest vigor, as many as you can in 20 minutes",
+        "for Where(variety, eq, Merlot) optional lowest vigor first: [picture] | duration_s 1200",
+    ),
     ("husky", "measure CO2 at the 5 best Merlot vines", "for Top(vigor, 5, of Where(variety, eq, Merlot)): [co2]"),
     (
         "husky",
@@ -105,19 +140,6 @@ PLANNED = [
 
 #: Robot, request, and the number of answers to choose from.
 ASKED = [
-    ("husky", "photograph as many weak vines as possible in 15 minutes", 3),
-    ("husky", "in 10 minutes take as many pictures of weak Syrah vines as you can", 3),
-    ("husky", "measure CO2 at the weakest vines, as many as you can within 12 minutes", 3),
-    (
-        "husky",
-        "photograph as many of the vines with the highest vigor in the south block as you can without driving more than 300 m",
-        3,
-    ),
-    (
-        "husky",
-        "take CO2 readings at the most vigorous vines of the north block, as many as possible in half an hour",
-        3,
-    ),
     ("husky", "photograph the weak vines of row 3 of the south block", 3),
     ("husky", "photograph vines with a low vigor", 3),
     ("husky", "measure CO2 at high-vigor vines of the north block", 3),

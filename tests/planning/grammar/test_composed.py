@@ -70,7 +70,7 @@ def test_what_people_say_is_planned_with_every_word(site: str, request_: str, pl
         "Take pictures of row 12.",  # of which block?
         "Take a picture of row 3 of the north block.",  # of every vine, or of one?
         "Take a picture of tree 4 and polish it.",
-        "Take pictures of the Merlot vines tomorrow, row by row.",
+        "Take pictures of the Merlot vines tomorrow or on Friday, row by row.",
         "Mow between rows 5 and 9 of the North block, and take canopy temps while you are at it.",
         "Drive slowly along row 22 in South and read CO2 at each vine.",
     ],

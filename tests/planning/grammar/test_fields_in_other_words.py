@@ -523,6 +523,141 @@ PLANNED = [
         "read the air temperature at the rose bed, at the manure heap and at the street gate",
         "for UnionOf(PointsIn(rose bed)+PointsIn(manure heap)+GateIs(street gate)): [air]",
     ),
+    (PASTURE, HUSKY, "read CO2 at the pond", "co2 @ Transect(1, edge, pond)"),
+    (
+        PASTURE,
+        HUSKY,
+        "read CO2 at the farm gate, at the pond and in the boggy corner",
+        "for UnionOf(GateIs(farm gate)+Transect(1, edge, pond)+PointsIn(boggy corner)): [co2]",
+    ),
+    (PASTURE, HUSKY, "go to the pond and take a thermal picture there", "go Transect(1, edge, pond); picture"),
+    (
+        PASTURE,
+        HUSKY,
+        "if the CO2 on the bank is above 500 ppm, read it in the boggy corner as well; otherwise go home",
+        "co2 @ PointsIn(bank) = r1; if r1 > 500 ppm: [co2 @ PointsIn(boggy corner)] else [go Marker(start)]",
+    ),
+    (
+        PASTURE,
+        AMIGA,
+        "if the soil moisture in the boggy corner is over 40 percent, measure nitrate there too",
+        "moisture @ PointsIn(boggy corner) = r1; if r1 > 40 percent: [nitrate]",
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        (
+            "choose three beans by chance, measure the nitrate at each one, and if they average below 15 ppm "
+            "bring me a leaf from those three"
+        ),
+        (
+            "for RandomSample(3, of Where(crop, eq, bean)): [nitrate = r1]; if mean(r1 < 15 ppm): [for "
+            "RandomSample(3, of Where(crop, eq, bean)): [sample_leaf]]"
+        ),
+    ),
+    (
+        GARDEN,
+        HUSKY,
+        "visit the rose bed and the manure heap and read the air temperature at each of them",
+        "for UnionOf(PointsIn(rose bed)+PointsIn(manure heap)): [air]",
+    ),
+    (GARDEN, TRACTOR, "use the side camera to film bed 4 from its east side", "film rows Rows(4, 4), east"),
+    (GARDEN, TRACTOR, "film bed 4 with the side camera", "film rows Rows(4, 4)"),
+    (GARDEN, TRACTOR, "film bed 4 from the east", "film rows Rows(4, 4), east"),
+    (GARDEN, TRACTOR, "film bed 4 along its west side", "film rows Rows(4, 4), west"),
+    (
+        GARDEN,
+        TRACTOR,
+        "spray the potato beds one after the other at 250 l/ha",
+        "spray rows Rows(of Where(crop, eq, potato)), rate_l_ha 250",
+    ),
+    (
+        GARDEN,
+        TRACTOR,
+        "spray all six beds at 200 l/ha except those that are netted",
+        "spray rows Excluding(UnionOf(Rows(3, 3)+Rows(4, 4)), of Rows), rate_l_ha 200",
+    ),
+    (
+        GARDEN,
+        TRACTOR,
+        "spray beds 1 to 6 at 150 l/ha, leaving the beans and the kale unsprayed",
+        "spray rows Excluding(UnionOf(Rows(4, 4)+Rows(6, 6)), of Rows(1, 6)), rate_l_ha 150",
+    ),
+    (
+        PASTURE,
+        TRACTOR,
+        "mow the bank first, then the cowslip patch",
+        "mow area InZone(bank); mow area InZone(cowslip patch)",
+    ),
+    (
+        PASTURE,
+        TRACTOR,
+        "start mowing the long pasture at the farm gate",
+        "go GateIs(farm gate); mow area InZone(long pasture)",
+    ),
+    (
+        PASTURE,
+        TRACTOR,
+        "mow the bank but keep 3 metres away from the cowslip patch and 2 metres away from the pond",
+        "mow area InZone(bank) | avoid InZone(cowslip patch) 3 m | avoid InZone(pond) 2 m",
+    ),
+    (
+        PASTURE,
+        TRACTOR,
+        "mow the bank, but hold still if anybody walks up to you and carry on once they have left",
+        "mow area InZone(bank) | return_to_start | at any time person_near: wait, then return_to_start",
+    ),
+    (
+        PASTURE,
+        TRACTOR,
+        "mow the bank, and if it should start raining, head back to the stable door",
+        "mow area InZone(bank) | return_to_start | at any time rain: return_to_start",
+    ),
+    (
+        PASTURE,
+        TRACTOR,
+        "mow the bank, and give the pond a berth of at least 4 metres",
+        "mow area InZone(bank) | avoid InZone(pond) 4 m",
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        "at every third bean, measure soil moisture at 10 and at 30 cm",
+        "for EveryNth(3, of Where(crop, eq, bean)): [moisture(depth_cm 10); moisture(depth_cm 30)]",
+    ),
+    (
+        PASTURE,
+        AMIGA,
+        "take a soil moisture reading in the middle of the bank, once at 10 cm and once at 50 cm",
+        "moisture(depth_cm 10) @ PointsIn(bank); moisture(depth_cm 50)",
+    ),
+    (
+        PASTURE,
+        AMIGA,
+        "on the bank, take nitrate at points laid out on a 20 m grid, 30 cm deep",
+        "for Grid(20, bank): [nitrate(depth_cm 30)]",
+    ),
+    (
+        PASTURE,
+        AMIGA,
+        "over the whole of the bank, measure soil moisture at 12 evenly spaced points",
+        "for PointsIn(bank, 12): [moisture]",
+    ),
+    (
+        PASTURE,
+        AMIGA,
+        "take nitrate at one random point in each quarter of the long pasture",
+        (
+            "for UnionOf(PointsIn(long pasture, True, nw)+PointsIn(long pasture, True, ne)+PointsIn(long "
+            "pasture, True, se)+PointsIn(long pasture, True, sw)): [nitrate]"
+        ),
+    ),
+    (
+        GARDEN,
+        AMIGA,
+        "measure soil moisture in each bed at the third plant from the north",
+        "for InRow(3, 3, north, of Rows): [moisture]",
+    ),
 ]
 
 ASKED = [
@@ -577,6 +712,9 @@ REFUSED = [
         "bring the crates to the tool shed",
         "'bring the crates' asks for work that amiga has no action for",
     ),
+    (PASTURE, HUSKY, "read CO2 in the pond", "pond is a keep-out zone"),
+    (PASTURE, TRACTOR, "drive into the pond and take a picture inside", "pond is a keep-out zone"),
+    (GARDEN, TRACTOR, "use the mower to film bed 4", "the request asks for nothing to be done"),
 ]
 
 

@@ -1,4 +1,4 @@
-"""What growers state beside a command: how their plants are, what day it is, and what they do before or meanwhile."""
+"""Statements of growers beside a command: how their plants are, what day it is, what they do before or meanwhile."""
 
 from __future__ import annotations
 

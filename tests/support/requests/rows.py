@@ -177,6 +177,7 @@ PLANNED = [
         "go TreeIs(50); picture @ Across",
     ),
     ("husky", "take a picture of tree 50 and of the tree opposite", "picture @ TreeIs(50); picture @ Across"),
+    ("husky", "photograph each corner and the tree opposite", "for Corners: [picture; picture @ Across]"),
     (
         "husky",
         "Drive along a row of 5 trees and take a picture at 3 of them.",
@@ -1166,11 +1167,6 @@ ASKED = [
         "take a picture of the last tree in the row",
         "'take a picture of the last tree in the row': from which tree?",
     ),
-    (
-        "husky",
-        "photograph each corner and the tree opposite",
-        "'the tree opposite': from which tree?",
-    ),
     ("husky", "take a picture of the next row", "'take a picture of the next row': from which tree?"),
     (
         "husky",
@@ -1212,7 +1208,7 @@ REFUSED = [
         "Take a picture of the northernmost row.",
         "rows cannot be counted from the north: the rows run north to south",
     ),
-    ("husky", "Take a picture every few trees.", "'few' is not possible yet"),
+    ("husky", "Take a picture every few trees.", "'every few trees': it does not say how far apart"),
     (
         "husky",
         "Photograph the third yellow tree of row 4.# hard and negative forms",
@@ -1293,7 +1289,7 @@ REFUSED = [
     (
         "husky",
         "Take a picture of tree 40. Turn around and go 3 trees back.",
-        "'Turn around' asks for a way of driving: not possible yet",
+        "'trees back' is not possible yet",
     ),
     (
         "husky",

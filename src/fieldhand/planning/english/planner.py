@@ -102,17 +102,22 @@ class EnglishPlanner:
             return None
         answered = with_answer(times.part, answers)
         part = times.part if answered is None else answered[0]
-        timing = part.provisional.timing(times.said, zone="")
+        asked = asked_time(part)
+        provisional = part if asked is None else asked.choices[0][1]
+        timing = provisional.timing(times.said, zone="")
         if timing is None:
             return None
-        outcome = composed(request, site, robot, answers=answers, words=times.words, timing=timing, told=told)
+        settled = times.said if times.part.disputed and asked is None else ()
+        outcome = composed(
+            request, site, robot, answers=answers, words=times.words, timing=timing, corrected=settled, told=told
+        )
         if not isinstance(outcome, Planned):
             return outcome
         if times.beside_any(outcome.task.command.no_part):  # "the crew arrives at 7 am" is told of the crew
             return None
-        asked = asked_time(part)
         if asked is not None:
-            return Clarify(question=asked[0], choices=asked[1], planner=NAME, free=True)
+            choices = tuple(said for said, _ in asked.choices)
+            return Clarify(question=asked.question, choices=choices, planner=NAME, free=True)
         assumed = assumed_times(part)
         if answered is None and not assumed:
             return outcome

@@ -148,6 +148,7 @@ class PlaceMeaning:
         per: Rows of each of which the selector says something by itself ("the oldest tree of each row").
         fault: Why the site cannot have it, for ``nowhere``.
         vague: Attribute by which they are chosen if neither a number nor a value was given ("the oldest trees").
+        ranked: Attribute of which the highest or lowest values are visited first, if as many as possible are.
         tokens: Tokens of the phrase, as a bit mask; they do not tell two meanings apart.
     """
 
@@ -167,6 +168,7 @@ class PlaceMeaning:
     per: s.Selector | None = None
     fault: str = ""
     vague: str = ""
+    ranked: tuple[str, Literal["highest", "lowest"]] | None = None
     tokens: int = field(default=0, compare=False)
 
     @property

@@ -18,7 +18,7 @@ from fieldhand.planning.grammar.dialogue.watching import with_visits
 from fieldhand.planning.grammar.earlier.unsaid import tells_earlier_missions, with_quantities
 from fieldhand.planning.grammar.meaning import WayRule
 from fieldhand.planning.homeward import faulted_exits, usual_exit, with_assumed_exit
-from fieldhand.planning.planner import Outcome, Planned, Reason, Refused
+from fieldhand.planning.planner import Clarify, Outcome, Planned, Reason, Refused
 from fieldhand.planning.selections import as_zone, is_gate
 from fieldhand.robot.capabilities import measures_of
 from fieldhand.robot.model import RobotProfile
@@ -99,6 +99,9 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
     if plan is None:
         return Refused(reasons=(_open_quantity(meant.plan),), planner=NAME)
     meant = replace(meant, plan=plan)
+    if not meant.limits and any(node.rewarded_first != "value" for node in p.walk(plan)):
+        asked = message("As many of the best as possible: within which time, distance or share of the battery?")
+        return Clarify(question=asked, planner=NAME)
     nominal = usual_exit(site) if meant.nominal is None else meant.nominal
     task = make_task(
         request=request,

@@ -263,6 +263,30 @@ class _Candidate:
         return self.outcome if isinstance(self.outcome, Planned) else None
 
 
+@dataclass(frozen=True, kw_only=True)
+class _Besides:
+    """What is known of a request besides the words that are read.
+
+    Attributes:
+        timing: When the mission runs.
+        told: Ranges of words that ask for nothing.
+        corrected: Ranges of words whose contradiction an answer has settled.
+    """
+
+    timing: Timing | None
+    told: tuple[Span, ...]
+    corrected: tuple[Span, ...]
+
+    def added_to(self, reading: RequestReading) -> RequestReading:
+        """Return a reading with all of it."""
+        return replace(
+            reading,
+            timing=self.timing,
+            remarks=(*reading.remarks, *self.told),
+            corrected=(*reading.corrected, *self.corrected),
+        )
+
+
 def composed(
     request: str,
     site: Site,
@@ -273,6 +297,7 @@ def composed(
     words: Sequence[Word] | None = None,
     timing: Timing | None = None,
     told: tuple[Span, ...] = (),
+    corrected: tuple[Span, ...] = (),
 ) -> Outcome:
     """Return the plan of a request that the grammar covers as a whole, or a question if there are several.
 
@@ -286,14 +311,16 @@ def composed(
         words: Words of the request that are to be read; None for all.
         timing: When the mission runs, as the other words say.
         told: Ranges of words that are not read because they ask for nothing.
+        corrected: Ranges of words whose contradiction an answer has settled.
     """
-    outcome = _composed(request, site, robot, language, answers, words, timing, told, past=True)
+    besides = _Besides(timing=timing, told=told, corrected=corrected)
+    outcome = _composed(request, site, robot, language, answers, words, besides, past=True)
     if not isinstance(outcome, Refused):
         return outcome
     read_words = language.words_of(request) if words is None else words
     if not keeps_asides(read_words, edges_of(read_words, language.phrases(robot, site))):
         return outcome
-    without = _composed(request, site, robot, language, answers, words, timing, told, past=False)
+    without = _composed(request, site, robot, language, answers, words, besides, past=False)
     is_present = isinstance(without, Planned) and not uses_records(without.task)
     return without if is_present else outcome  # "the yellow trees are to be photographed today"
 
@@ -305,13 +332,12 @@ def _composed(
     language: GrammarLanguage,
     answers: tuple[Answer, ...],
     words: Sequence[Word] | None,
-    timing: Timing | None,
-    told: tuple[Span, ...],
+    besides: _Besides,
     *,
     past: bool,
 ) -> Outcome:
     found = read(request, site, robot, language, words, past=past)
-    readings = [replace(one, timing=timing, remarks=(*one.remarks, *told)) for one in found.readings]
+    readings = [besides.added_to(one) for one in found.readings]
     found = replace(found, readings=readings)
     if not found.readings:
         asked = next((fault.what for fault in found.faults if isinstance(fault, OpenQuestion)), None)

@@ -243,6 +243,11 @@ class PlanNode(ABC):
         return ""
 
     @property
+    def rewarded_first(self) -> Literal["value", "highest", "lowest"]:
+        """The values of that attribute which are worth most by their rank; ``value`` if the values are the worth."""
+        return "value"
+
+    @property
     def rounds(self) -> int | None:
         """The maximum number of rounds of a repeat; None for other nodes."""
         return None

@@ -31,6 +31,7 @@ class ForEach(PlanNode):
         optional: Visits may be dropped to keep the budget, least worth first ("as many as you can").
         at_most: Maximum number of visits ("up to 6").
         reward: Attribute that a visit is worth, else 1.
+        reward_by: ``lowest`` if the lowest rank first ("as many weak vines as you can"); ``highest``.
         until: Stop once this holds after a visit.
         collects: Reading of which all readings so far are forgotten when the loop begins.
     """
@@ -43,6 +44,7 @@ class ForEach(PlanNode):
     optional: bool = False
     at_most: int | None = None
     reward: str = ""
+    reward_by: Literal["value", "highest", "lowest"] = "value"
     until: Condition | None = None
     collects: str = ""
     said: tuple[Span, ...] = ()
@@ -110,6 +112,10 @@ class ForEach(PlanNode):
     @property
     def rewarded_by(self) -> str:
         return self.reward
+
+    @property
+    def rewarded_first(self) -> Literal["value", "highest", "lowest"]:
+        return self.reward_by
 
     @property
     def selector(self) -> Selector:

@@ -22,7 +22,7 @@ class Pace(PlanNode):
     plan, or after a fault, is not limited.
 
     Attributes:
-        speed_m_s: Highest driving speed in metres per second.
+        speed_m_s: In metres per second.
     """
 
     id: str = ""

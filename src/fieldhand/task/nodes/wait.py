@@ -21,7 +21,7 @@ class Wait(PlanNode):
     towards budgets, and idle power towards the battery.
 
     Attributes:
-        seconds: Duration in seconds, above 0.
+        seconds: Above 0.
     """
 
     id: str = ""

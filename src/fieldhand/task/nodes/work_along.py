@@ -26,8 +26,9 @@ WorkHeading = Literal["any", "north_south", "east_west", "north", "east", "south
 
 @dataclass(frozen=True, kw_only=True)
 class WorkAlong(PlanNode):
-    """An action that is on while the robot drives: along the rows of a selector, through the aisles between them, over
-    an area lane by lane, or along its edge. Without an action the robot only drives.
+    """An action that is on while the robot drives along rows, through aisles, over an area or along its edge.
+
+    Without an action the robot only drives.
 
     The selector is resolved once, when the node is reached, into stretches: paths that are driven in one piece. The
     robot drives to the begin of each stretch and along it, with the action on from the first to the last plant and off

@@ -8,6 +8,7 @@ from fieldhand.planning.grammar.commands import (
     aggregates,
     asked,
     asked_places,
+    at_edges,
     bringing,
     captures,
     clauses,
@@ -46,8 +47,8 @@ GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
     exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, earlier,
-    work_wanted, laps, headings, asked, left_standing, to_and_fro, work_sequel, bringing, reported, further_work,
-    counting, which_of_two, asked_places,
+    work_wanted, laps, headings, asked, left_standing, to_and_fro, work_sequel, at_edges, bringing,
+    reported, further_work, counting, which_of_two, asked_places,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

@@ -14,7 +14,16 @@ from fieldhand.planning.grammar.places.groups import of_each_kind
 from fieldhand.planning.grammar.places.sampling import bare_points
 from fieldhand.planning.grammar.places.vague import as_many_of_best
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import are_rows, as_quota, as_some, as_zone, chooses_from_trees, is_one_row, over
+from fieldhand.planning.selections import (
+    are_rows,
+    as_quota,
+    as_some,
+    as_spread_points,
+    as_zone,
+    chooses_from_trees,
+    is_one_row,
+    over,
+)
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -143,7 +152,7 @@ class _Drawing:
 
 def _evenly(command: CaptureCommand, drawing: _Drawing) -> CaptureCommand | None:
     place, count = command.place, _only_count(command)
-    if place is not None and isinstance(place.selector, s.PointsIn) and not place.selector.random:
+    if place is not None and as_spread_points(place.selector) is not None:
         return command  # as free points are spread anyway
     if place is not None and place.shape == "several" and (some := as_some(place.selector)) is not None:
         in_rows = any(are_rows(part) for part in some.of.walk())
@@ -177,8 +186,9 @@ def _at_random(command: CaptureCommand, drawing: _Drawing) -> CaptureCommand | N
         return replace(command, things=once(command.things), place=drawn_there)
     if place is None or place.shape not in ("one", "several") or place.per is not None:
         return None
-    if isinstance(place.selector, s.PointsIn) and place.count and not place.selector.random:
-        return replace(command, place=replace(place, selector=replace(place.selector, random=True)))
+    spread = as_spread_points(place.selector)
+    if spread is not None and place.count:
+        return replace(command, place=replace(place, selector=replace(spread, random=True)))
     quota = as_quota(place.selector)
     if quota is not None and quota.how == "spread":
         return replace(command, place=replace(place, selector=replace(quota, how="random")))

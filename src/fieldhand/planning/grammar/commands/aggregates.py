@@ -212,6 +212,14 @@ def error_is(test: Test) -> AllTests | None:
 # --- comparisons ------------------------------------------------------------------------------------------------------
 
 
+@construction("test: word=IT AVERAGED test=predicate", "test: DET READING AVERAGED test=predicate", cost=0.1)
+def they_average(test: Test, word: Lex | None = None) -> Test | None:
+    """Compose "they average below 15 ppm"."""
+    if word is not None and "of_several" not in word.features:
+        return None
+    return None if test.of or test.attribute or test.value == SAME_THRESHOLD else replace(test, of="mean")
+
+
 @construction("side: one=statistic", cost=0.0)
 def side_of_statistic(one: Subject) -> Subject:
     """Compose "the mean of row 3" as one side of a comparison."""

@@ -101,6 +101,7 @@ def in_or_over() -> str:
     "asked: HOWMUCH things=things [ONAVERAGE] THEREIS in_ where=asked_of [ONAVERAGE]",
     "asked: HOWMUCH things=things IS in_ where=asked_of [ONAVERAGE]",
     "asked: HOWMUCH things=things in_ where=asked_of [ONAVERAGE]",
+    "asked: HOWMUCH things=things ONAVERAGE in_ where=asked_of",
     "asked: WHATIS [DET] [AVERAGEWORD] things=things [IS] in_ where=asked_of [ONAVERAGE]",
     "asked: ASKMEAN [DET] [AVERAGEWORD] things=things in_ where=asked_of [ONAVERAGE]",
     cost=0.2,
@@ -202,8 +203,8 @@ def spots_tell(
     ways = [spots]
     if several > 1 and not spots.each:  # "four spots" of two areas: in each, or in all?
         ways += [] if spots.count % several else [replace(spots, count=spots.count // several)]
-    made = [_readings(asked.areas, replace(way, each=spots.each or several > 1), site) for way in ways]
-    return [CaptureCommand(things, place, used) for place in made if place is not None] or None
+    places = [_readings(asked.areas, replace(way, each=spots.each or several > 1), site) for way in ways]
+    return [CaptureCommand(things, place, used) for place in places if place is not None] or None
 
 
 def _readings(areas: tuple[s.Selector, ...], spots: Spots, site: Site) -> PlaceMeaning | None:

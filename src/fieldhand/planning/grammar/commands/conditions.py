@@ -39,6 +39,7 @@ from fieldhand.planning.grammar.meaning import (
 )
 from fieldhand.planning.grammar.places.compass import AWAY_FROM
 from fieldhand.planning.grammar.places.numbers import named_trees
+from fieldhand.planning.grammar.places.sampling import bare_points
 from fieldhand.planning.grammar.words import Lex, hinted_attributes
 from fieldhand.planning.selections import as_in_row, as_some, is_one_row
 from fieldhand.robot.model import RobotProfile
@@ -127,9 +128,12 @@ def with_setting(
     "measured: place=owned_by [READING]",
     "measured: place=owned_by noun=NOUN [READING]",
     cost=0.0,
+    given=("site",),
 )
-def reading_at(place: PlaceMeaning, noun: Lex | None = None) -> list[Subject] | None:
-    """Compose "the temperature at tree 4", "the one at tree 4" and "tree 4's"."""
+def reading_at(place: PlaceMeaning, site: Site, noun: Lex | None = None) -> list[Subject] | None:
+    """Compose "the temperature at tree 4" and "tree 4's"; of a bare zone it is that in its middle."""
+    if place.shape == "area" and (free := bare_points(place.selector, site, 1)) is not None:
+        place = replace(place, selector=free, shape="one")
     named = [Subject()] if noun is None or noun.value is None else named_quantity(noun) or []
     return [replace(one, place=place) for one in named] if _is_known(place) and len(named) == 1 else None
 

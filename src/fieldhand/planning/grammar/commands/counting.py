@@ -11,6 +11,7 @@ from fieldhand.planning.grammar.meaning import CaptureCommand
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_every_nth, as_in_row, swapped
+from fieldhand.terms import Side
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -20,7 +21,7 @@ construction = GRAMMAR.construction
     "counting: COUNTED [DET] side=DIR [FINISH]", "counting: COUNTED [DET] side=DIR SIDE",
     "counting: COUNTED [DET] FINISH in_ [DET] side=DIR", cost=0.0,
 )  # fmt: skip
-def counting(side: Lex) -> str | None:
+def counting(side: Lex) -> Side | None:
     """Compose "counting from the north end"."""
     return side.value if side.value in SIDES else None
 
@@ -35,12 +36,12 @@ def counting(side: Lex) -> str | None:
     "adjunct: [and_or_but] side=counting PER ROW",
     cost=0.3,
 )
-def counted(side: str) -> Adjunct:
+def counted(side: Side) -> Adjunct:
     """Compose "and count from the north end each time"."""
     return Adjunct(_counted, side, of_place=True, is_sentence=True)
 
 
-def _counted(command: CaptureCommand, side: str) -> CaptureCommand | None:
+def _counted(command: CaptureCommand, side: Side) -> CaptureCommand | None:
     """Return a command at places that are counted from a side; None if none of them is counted, or from elsewhere."""
     place = command.place
     if place is None:
@@ -55,7 +56,7 @@ def _counted(command: CaptureCommand, side: str) -> CaptureCommand | None:
     return None if made == place.selector else replace(command, place=replace(place, selector=made))
 
 
-def _from_side(one: s.Selector, side: str) -> s.Selector:
+def _from_side(one: s.Selector, side: Side) -> s.Selector:
     """Return every n-th tree, or trees by their numbers in the row, counted from a side."""
     known = as_every_nth(one) or as_in_row(one)
     return one if known is None else replace(known, counted_from=side)

@@ -291,6 +291,9 @@ def in_reverse_order(used: int) -> InAnOrder:
 @construction(
     "order: NOORDER",
     "order: DISTINCT",
+    "order: ACTV DISTINCT",
+    "order: verb DISTINCT",
+    "order: VISIT DISTINCT",
     "order: [DET] ORDERWORD [COMMA] [IS] ORDERFREE",
     "order: [ORDERBY] WHATEVER ORDERWORD [ORDERSUITS]",
     "order: [ORDERBY] WHATEVER ORDERWORD [IS] ORDERBEST",

@@ -341,6 +341,13 @@ def watched_until_over(rule: WatchCommand, used: int) -> WatchCommand | None:
     return None if made is None else replace(rule, reaction=replace(made, stands=False), used=used)
 
 
+@construction("command: rule=command [COMMA] [AND] GOON ONCEOVER", cost=0.1)
+def going_on_once_over(rule: WatchCommand, used: int) -> WatchCommand | None:
+    """Compose "stand still if anybody comes and go on once they have left"."""
+    made = goes_on(rule.reaction) if isinstance(rule, WatchCommand) and not rule.during else None
+    return None if made is None else replace(rule, reaction=replace(made, stands=False), used=used)
+
+
 @construction("reacts: STANDSTILL [DET] WORKN", "reacts: STANDSTILL [DET] WORKV", cost=0.3)
 def stops_its_work() -> WatchResponse:
     """Compose "stop the mower"."""

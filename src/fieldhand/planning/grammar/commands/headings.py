@@ -110,6 +110,12 @@ def work_in_lanes(one: WorkCommand, axis: WorkHeading, used: int) -> WorkCommand
     return replace(one, heading=axis, used=used)
 
 
+@construction("work: one=work [COMMA] ROWINTURN", cost=0.2)
+def work_one_by_one(one: WorkCommand, used: int) -> WorkCommand | None:
+    """Compose "spray the Merlot rows one after the other", as rows are worked anyway."""
+    return replace(one, used=used) if one.mode == "rows" else None
+
+
 @construction("work: one=work [COMMA] TOANDFRO", "work: one=work [COMMA] GO TOANDFRO", cost=0.2)
 def work_to_and_fro(one: WorkCommand, used: int) -> WorkCommand | None:
     """Compose "mow the meadow up and down", as ground is worked anyway."""

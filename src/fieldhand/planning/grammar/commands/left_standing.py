@@ -35,6 +35,12 @@ class LeftStanding:
     action: str = ""
 
 
+@construction("spared: where=crop_area", cost=0.1, given=("site",))
+def rows_spared(where: s.Selector, site: Site) -> s.Selector | None:
+    """Compose "the beans" of "spray all beds but the beans", where their rows have no other plants."""
+    return rows_out_of(where, site)
+
+
 @construction("spared: where=region", "spared: where=rows", "spared: where=crop_area", cost=0.0)
 def spared(where: s.Selector) -> s.Selector:
     """Compose "the wet corner" of "leave out the wet corner"."""
@@ -83,7 +89,12 @@ def both_spared(first: s.Selector, second: s.Selector) -> s.Selector | None:
 )
 def left_standing(where: s.Selector, used: int, word: Lex | None = None, verb: Lex | None = None) -> LeftStanding:
     """Compose "leave the wet corner uncut", "skip row 5" and "don't mow the orchids"."""
-    return LeftStanding(where, used, cut=word is not None, action="" if verb is None else str(verb.value))
+    return LeftStanding(
+        where,
+        used,
+        cut=word is not None and "of_any_work" not in word.features,
+        action="" if verb is None else str(verb.value),
+    )
 
 
 @construction("said: before=said [joint] out=left_standing", cost=0.4, given=("robot",))

@@ -284,7 +284,9 @@ def _each_probed_so(before: Said, number: int, how: ParameterValue, own: int, ro
     found: list[Said] = []
     clause = before.clauses[number]
     command = clause.command
-    for action in robot.actions if isinstance(command, CaptureCommand) else ():
+    if not isinstance(command, CaptureCommand):
+        return found
+    for action in robot.actions:
         made = with_parameter(replace(command.things[0], action=action.name, verb=""), how, robot)
         if made is not None:
             one = replace(clause, command=replace(command, things=(made,), used=command.used | own))
@@ -324,7 +326,13 @@ def same_parameter(name: Lex, word: Lex | None = None) -> ParameterValue | None:
     return ParameterValue(SAME_VALUE, "", tuple(name.value))
 
 
-@construction("value: how=parameter", "value: ONE [READING] how=parameter", "value: READING how=parameter", cost=0.1)
+@construction(
+    "value: ONCE how=parameter",
+    "value: how=parameter",
+    "value: ONE [READING] how=parameter",
+    "value: READING how=parameter",
+    cost=0.1,
+)
 def one_of_several_values(how: ParameterValue) -> ParameterValue | None:
     """Compose "one reading at 10 cm", of several that are taken."""
     return None if isinstance(how.value, str) else how
@@ -371,6 +379,7 @@ def more_amounts(first: tuple[Lex | Amount, ...], then: Lex | Amount) -> tuple[L
 @construction(
     "parameters: [word=AT] first=amounts and_again last=amount",
     "parameters: word=AT PARAMETER [OF] first=amounts and_again last=amount",
+    "parameters: word=AT first=amounts and_again AT last=amount",
     "parameters: [word=AT] first=amounts and_again last=NUM",
     cost=0.1,
 )

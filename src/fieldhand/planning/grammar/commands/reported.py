@@ -29,7 +29,7 @@ construction = GRAMMAR.construction
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """What is asked for of the readings.
+    """Figures that are asked for of the readings.
 
     Attributes:
         quantities: Quantities that the phrase names.

@@ -482,6 +482,15 @@ def again_in_that_order(one: Again, used: int) -> Again | None:
     return replace(one, used=used) if one.times else None
 
 
+@construction("capture: MEASURE it=IT [AGAIN] relation place=place", "capture: MEASURE it=IT AGAIN", cost=0.8)
+def measured_elsewhere(it: Lex, used: int, place: PlaceMeaning | None = None) -> CaptureCommand | None:
+    """Compose "(if the CO2 at the mast is high,) read it at the trough", of what was captured last."""
+    single = place is None or (place.shape in ("one", "several", "area") and not place.refers_back)
+    if "of_several" in it.features or not single:
+        return None
+    return CaptureCommand((Thing(LAST_THING, count=1),), place, used)
+
+
 @construction("capture: AGAIN", "capture: AGAIN place=here", "capture: MEASURE AGAIN", cost=1.5)
 def once_more(used: int, place: PlaceMeaning | None = None) -> CaptureCommand:
     """Compose "(and then) once more", of what was captured last."""

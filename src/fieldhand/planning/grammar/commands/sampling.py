@@ -258,6 +258,8 @@ def _at_points(command: CaptureCommand, laid: _Laid) -> CaptureCommand | None:
     "fronted: word=AT where=region [COMMA]",
     "fronted: OVER where=region [COMMA]",
     "fronted: INSIDE where=region [COMMA]",
+    "fronted: word=AT WHOLEOF where=region [COMMA]",
+    "fronted: OVER WHOLEOF where=region [COMMA]",
     cost=0.1,
 )
 def fronted(where: s.Selector, word: Lex | None = None) -> s.Selector | None:
@@ -348,7 +350,7 @@ def laid_along_path(
 @construction("laid_places: LAYS place=place", "laid_places: SCATTER place=place", cost=0.2)
 def laid_points(place: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "set out twelve points over the slope"."""
-    laid = all(isinstance(one, s.PointsIn | s.Transect | s.Grid) for one in place.selector.members)
+    laid = all(hasattr(one, "zone") and as_zone(one) is None for one in place.selector.members)
     return place if laid and place.shape == "several" else None
 
 

@@ -58,6 +58,8 @@ def around(place: PlaceMeaning, used: int) -> WayRule | None:
     "way_rule: KEEPOUT place=place [COMMA] check=CMP far=amount",
     "way_rule: [KEEPOFF] NOCLOSER far=amount FROM place=place",
     "way_rule: [KEEPOFF] NOCLOSER far=amount AT place=place",
+    "way_rule: GIVES place=place BERTH [check=CMP] far=amount",
+    "way_rule: GIVES BERTH [check=CMP] far=amount AT place=place",
     "way_rule: COMES NOCLOSER far=amount FROM place=place",
     "way_rule: COMES NOCLOSER far=amount AT place=place",
     "way_rule: WITHOUT COMES INSIDE far=amount OF place=place",
@@ -132,6 +134,17 @@ def also_from(rule: WayRule, place: PlaceMeaning, used: int) -> WayRule | None:
         return None
     avoid = (*rule.avoid, *((one, metres) for one in places))
     return replace(rule, avoid=avoid, left_out=(*rule.left_out, *(places if rule.left_out else ())), used=used)
+
+
+@construction(
+    "way_rule: rule=way_rule [COMMA] AND [check=CMP] far=amount FROM place=place",
+    "way_rule: rule=way_rule [COMMA] AND [check=CMP] far=amount CLEAROF place=place",
+    cost=0.2,
+)
+def also_so_far(rule: WayRule, far: Amount, place: PlaceMeaning, used: int, check: Lex | None = None) -> WayRule | None:
+    """Compose "keep 3 m away from the pond and 2 m away from the charger"."""
+    more = keep_distance(far, place, used, check) if rule.avoid else None
+    return None if more is None else both_rules(rule, more, used)
 
 
 @construction("way_rule: WHILE rule=way_rule", "way_rule: BUT rule=way_rule", "way_rule: BUT rule=around", cost=0.2)

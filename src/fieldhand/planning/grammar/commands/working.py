@@ -336,7 +336,8 @@ def as_much(one: WorkCommand, used: int) -> WorkCommand | None:
 
 @construction(
     "work: one=work [COMMA] [AT] [DET] side=DIR SIDE", "work: one=work [COMMA] FROM [DET] side=DIR SIDE",
-    "work: one=work [COMMA] AT ITS side=DIR SIDE", "work: one=work [COMMA] FROM ITS side=DIR SIDE", cost=0.1,
+    "work: one=work [COMMA] AT ITS side=DIR SIDE", "work: one=work [COMMA] FROM ITS side=DIR SIDE",
+    "work: one=work [COMMA] ALONG ITS side=DIR SIDE", "work: one=work [COMMA] ALONG [DET] side=DIR SIDE", cost=0.1,
 )  # fmt: skip
 def on_one_side(one: WorkCommand, side: Lex, used: int) -> WorkCommand | None:
     """Compose "spray rows 3 to 8 at 300 l/ha on the west side" and "film row 3 from the west side"."""

@@ -74,6 +74,7 @@ from fieldhand.planning.selections import (
     AREAS,
     anchors,
     are_rows,
+    as_corners,
     as_every_nth,
     as_in_row,
     as_some,
@@ -163,6 +164,8 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
 def is_across_each(state: DialogueState, place: PlaceMeaning | None) -> bool:
     """Return True for the tree across the aisle from each of the places of the same sentence."""
     several = state.where is not None and state.where.shape == "several" and state.loop is not None
+    if state.where is not None and any(as_corners(one) is not None for one in state.where.selector.walk()):
+        return False  # "each corner and the tree opposite": across the aisle, or in the opposite corner?
     across = place is not None and is_across(place.selector) and place.selector.relative
     return several and across and state.commands_in_sentence > 0 and not is_inside(state.scope, state.loop or (-1,))
 

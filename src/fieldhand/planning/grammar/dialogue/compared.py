@@ -78,12 +78,11 @@ def _ground(places: s.Selector) -> PlaceMeaning:
     """Return the area in which places were chosen: the crop of five leeks, the zone of ten points; or the one place."""
     zone = getattr(places, "zone", "")
     if zone and as_zone(places) is None:
-        single = isinstance(places, s.PointsIn) and places.count == 1
-        return PlaceMeaning(places, "one") if single else PlaceMeaning(s.InZone(zone=zone), "area")
+        return PlaceMeaning(places, "one") if places.single else PlaceMeaning(s.InZone(zone=zone), "area")
     inner = places
     while not (is_description(inner) or are_rows(inner)):
         of = getattr(inner, "of", None)
-        if not isinstance(of, s.Selector) or of == s.Trees():
+        if of is None or of == s.Trees():
             return PlaceMeaning(places, "one" if places.single else "area")
         inner = of
     return PlaceMeaning(inner, "area")

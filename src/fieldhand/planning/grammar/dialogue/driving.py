@@ -146,6 +146,8 @@ def visits(place: PlaceMeaning, said: Spans) -> p.ForEach:
         optional=place.optional,
         at_most=place.at_most,
         order="given" if place.in_order else "best",
+        reward="" if place.ranked is None else place.ranked[0],
+        reward_by="value" if place.ranked is None else place.ranked[1],
         said=said,
     )
 
@@ -439,6 +441,8 @@ def limit_visits(setting: Setting, state: DialogueState, command: VisitLimit) ->
     if command.count is None and state.where is not None and state.where.vague:
         ranked = as_many_of_best(replace(state.where, selector=loop.select))
         loop, counted = replace(loop, select=ranked.selector), False
+        if ranked.ranked is not None:
+            loop = replace(loop, reward=ranked.ranked[0], reward_by=ranked.ranked[1])
     if command.count is None and as_some(loop.select) is None:
         counted = False  # "from the ten oldest trees, as many as you can"
     if loop.optional or loop.at_most is not None or counted:

@@ -56,6 +56,10 @@ def in_area(setting: Setting, before: Lead | DriveCommand, place: PlaceMeaning |
         NotComposed: The two are different places, or how many trees are meant is unclear.
     """
     area = before.place.selector
+    middles = [bare_points(part, setting.site, 1) for part in area.members]
+    if len(middles) > 1 and None not in middles and is_spoken_of(place):
+        spots = s.UnionOf(parts=tuple(one for one in middles if one is not None))
+        return PlaceMeaning(spots, "several", count=len(middles), each=True)
     if before.place.each and is_spoken_of(place):
         return PlaceMeaning(area, "several", each=True)
     if place is None and isinstance(before, DriveCommand) and are_several_rows(area):

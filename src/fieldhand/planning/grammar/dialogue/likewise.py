@@ -57,9 +57,10 @@ def with_known_place(setting: Setting, state: DialogueState, command: Command) -
     """
     if not isinstance(command, _WithPlace) or command.place is None:
         return command
-    if command.place.shape == "those":
-        command = replace(command, place=_those_named(setting, state, command.place, command.used))
-    place = _end_of_row_spoken_of(state, _in_row_spoken_of(state, command.place))
+    place = command.place
+    if place.shape == "those":
+        place = _those_named(setting, state, place, command.used)
+    place = _end_of_row_spoken_of(state, _in_row_spoken_of(state, place))
     place = _beside_unreached(state, place)
     command = replace(command, place=place)
     if place.beside:

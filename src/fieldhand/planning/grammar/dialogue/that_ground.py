@@ -31,13 +31,13 @@ def with_that_ground(state: DialogueState, command: T) -> tuple[DialogueState, T
             return s.PointsIn(zone=zone.zone)
         if value == s.InZone(zone=THAT_GROUND) and ground is not None:
             return ground
-        if not isinstance(value, s.Selector) or getattr(value, "zone", "") != THAT_GROUND:
+        if getattr(value, "zone", "") != THAT_GROUND:
             return None
         if zone is None:
             raise NotComposed(
                 message("it is not clear which area is meant", context="fault"), advice=message("say its name")
             )
-        named: s.Selector = replace(value, zone=zone.zone)  # type: ignore[call-arg]
+        named: s.Selector = replace(value, zone=zone.zone)
         return named
 
     changed: T = with_known(command, known)

@@ -1,4 +1,4 @@
-"""What a request says beside its steps: numbers of captures ("six samples in total"), and what is to be reported."""
+"""Numbers of captures beside the steps of a request ("six samples in total"), and wishes for what is reported."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ construction = GRAMMAR.construction
 
 
 @dataclass(frozen=True, slots=True)
-class Spots:
+class SpotList:
     """Single places in the order in which they were named.
 
     Attributes:
@@ -28,18 +28,18 @@ class Spots:
 
 
 @construction("spot_item: place=place", "spot_item: word=relation place=place", cost=0.1, given=("site",))
-def spot_item(place: PlaceMeaning, site: Site, word: str = "at") -> Spots | None:
+def spot_item(place: PlaceMeaning, site: Site, word: str = "at") -> SpotList | None:
     """Compose "in the wet corner" and "at the gate" of a list."""
     if word not in ("at", "of") or place.per is not None or place.refers_back or place.beside:
         return None
     if place.shape == "one" and place.selector.single and not place.selector.relative:
-        return Spots((place.selector,))
+        return SpotList((place.selector,))
     free = bare_points(place.selector, site, 1) if place.shape == "area" else None
-    return None if free is None else Spots((free,), (place.selector,))
+    return None if free is None else SpotList((free,), (place.selector,))
 
 
 @construction("spot_list: first=spot_item", "spot_list: first=spot_list COMMA second=spot_item", cost=0.1)
-def spot_list(first: Spots, second: Spots | None = None) -> Spots | None:
+def spot_list(first: SpotList, second: SpotList | None = None) -> SpotList | None:
     """Compose "at the gate, at the trough"."""
     if second is None:
         return first
@@ -47,16 +47,16 @@ def spot_list(first: Spots, second: Spots | None = None) -> Spots | None:
 
 
 @construction("place: first=spot_list [COMMA] AND last=spot_item", cost=0.2)
-def spots_listed(first: Spots, last: Spots) -> PlaceMeaning | None:
+def spots_listed(first: SpotList, last: SpotList) -> PlaceMeaning | None:
     """Compose "at the gate, at the trough and in the wet corner"."""
     made = _both(first, last)
     if not made.grounds or {*first.parts} & {*last.parts}:
         return None
-    if len(made.grounds) == len(made.parts):
+    if len(made.grounds) == len(made.parts) and not any(one in made.parts for one in made.grounds):
         return PlaceMeaning(s.UnionOf(parts=made.grounds), "area")
     return PlaceMeaning(s.UnionOf(parts=made.parts), "several", count=len(made.parts), each=True)
 
 
-def _both(first: Spots, second: Spots) -> Spots:
+def _both(first: SpotList, second: SpotList) -> SpotList:
     """Return two lists as one."""
-    return Spots((*first.parts, *second.parts), (*first.grounds, *second.grounds))
+    return SpotList((*first.parts, *second.parts), (*first.grounds, *second.grounds))

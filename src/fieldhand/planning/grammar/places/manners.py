@@ -18,7 +18,7 @@ def evenly_placed() -> Lex:
     return Lex(None, False, "evenly spread")
 
 
-@construction("RANDOM: PLACED RANDOMLY [ALONGIT]", "RANDOM: RANDOMLY PLACED [ALONGIT]", cost=0.1)
+@construction("RANDOM: PLACED RANDOMLY [ALONGIT]", "RANDOM: RANDOMLY PLACED [ALONGIT]", "RANDOM: CHOSENBY", cost=0.1)
 def placed_at_random() -> Lex:
     """Compose "scattered at random"."""
     return Lex(None, False, "at random")

@@ -34,7 +34,7 @@ class SoManyEach:
 
     @property
     def how(self) -> Literal["spread", "random"]:
-        """How they are chosen."""
+        """The way in which they are chosen."""
         return "random" if self.random else "spread"
 
 

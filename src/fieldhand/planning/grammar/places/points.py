@@ -56,6 +56,12 @@ def ground_of_zone(zone: Lex) -> Ground:
     return Ground(zone.value)
 
 
+@construction("ground: WHOLEOF whole=ground", cost=0.1)
+def whole_ground(whole: Ground) -> Ground | None:
+    """Compose "the whole of the slope"."""
+    return whole if whole.part == "all" else None
+
+
 @construction("ground: site", cost=0.4, given=("site",))
 def ground_of_site(site: Site) -> Ground | None:
     """Compose "the meadow", where no plants grow."""

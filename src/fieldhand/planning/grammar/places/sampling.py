@@ -450,7 +450,9 @@ def grid_selector(every: float, area: s.Selector | None, site: Site) -> s.Select
     return s.Grid(every_m=every, of=s.Trees() if area is None else area) if site.trees else None
 
 
-@construction("place: [DET] inner=nominal on=grid_over", "place: [DET] POINT on=grid_over", cost=0.2, given=("site",))
+@construction(
+    "place: [DET] inner=nominal on=grid_over", "place: [DET] POINT [PLACED] on=grid_over", cost=0.2, given=("site",)
+)
 def places_on_grid(
     on: tuple[float, s.Selector | None], site: Site, inner: Nominal | None = None
 ) -> PlaceMeaning | None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Literal
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
@@ -15,9 +16,8 @@ from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.chosen import Choice
 from fieldhand.planning.grammar.places.compass import CORNERS
 from fieldhand.planning.grammar.places.numbered import ids_of
-from fieldhand.planning.grammar.places.numbers import VAGUE_NUMBERS
 from fieldhand.planning.grammar.words import Lex, hinted_attributes
-from fieldhand.planning.selections import as_top, chooses_from_trees, swapped
+from fieldhand.planning.selections import as_top, as_where, chooses_from_trees, swapped
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -42,8 +42,6 @@ _SHARES = (0.05, 0.10, 0.25)
 #: Words in the names of attributes that say how high a place lies.
 _HEIGHTS = ("elevation", "altitude", "elev")
 _ANYWHERE = s.Trees()
-#: Number of the best trees of which as many as possible are visited, by the number offered if all of them are.
-_AMONG = dict(zip(VAGUE_NUMBERS, (10, 30, 100), strict=True))
 #: Minimum number of different values of an attribute by which trees are ranked.
 _FEWEST_VALUES = 3
 
@@ -115,16 +113,28 @@ def from_some_value_on(said: tuple[Nominal, tuple[str, bool], str], site: Site) 
 
 
 def as_many_of_best(place: PlaceMeaning) -> PlaceMeaning:
-    """Return places of which as many as possible are visited: among more of the best ones if no number was given.
+    """Return places of which as many as possible are visited, the best ones first, if no number and no value was given.
 
-    "As many of the weakest vines as you can" leaves open among how many of them; each number is a reading of its own.
+    "As many of the weakest vines as you can" does not say among how many of them, and "as many weak vines" not from
+    which value on: the budget decides, and the weakest are worth most.
     """
-    for part in place.selector.walk():
-        top = as_top(part)
-        if place.vague and top is not None and top.attribute == place.vague and top.count in _AMONG:
-            among = replace(top, count=_AMONG[top.count])
-            return replace(place, selector=swapped(place.selector, top, among), count=None)
-    return place
+    if not place.vague:
+        return place
+    found = [found for part in place.selector.walk() if (found := _ranking(part, place.vague)) is not None]
+    if len(found) != 1:
+        return place
+    ((part, of, which),) = found
+    return replace(place, selector=swapped(place.selector, part, of), count=None, vague="", ranked=(place.vague, which))
+
+
+def _ranking(part: s.Selector, attribute: str) -> tuple[s.Selector, s.Selector, Literal["highest", "lowest"]] | None:
+    """Return a selector that takes the best by an attribute, what it chooses from, and which are the best."""
+    if (top := as_top(part)) is not None and top.attribute == attribute:
+        return top, top.of, "lowest" if top.lowest else "highest"
+    where = as_where(part)
+    if where is None or where.attribute != attribute or where.test not in ("lt", "gt"):
+        return None
+    return where, where.of, "lowest" if where.test == "lt" else "highest"
 
 
 def _attributes(said: tuple[Nominal, tuple[str, bool], str], site: Site) -> Sequence[str]:

@@ -101,7 +101,7 @@ construction(
     "row_list: rows=row_list AND [DET] [ROW] item=row_item",
     cost=0.1,
 )(rows.longer_row_list)
-construction("place: word=EACHOF place=place", cost=0.4)(groups.each_of_group)
+construction("place: word=EACHOF place=place", cost=0.4, given=("site",))(groups.each_of_group)
 construction("numbers: first=numbers [COMMA] AND DET item=number_item", cost=0.1)(numbers.more_numbers)
 construction("ordered: DET rank=ranking FIRSTONE", cost=0.1)(driving.best_first)
 construction("place: EACH [DET] inner=nominal ALLYOUCAN", "place: ASMANYOF inner=nominal", cost=0.1)(quantities.as_many)

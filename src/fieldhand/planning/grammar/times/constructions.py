@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from calendar import monthrange
 from dataclasses import replace
 from datetime import date
-from typing import Literal
 
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.times.meaning import ROUGHLY_MIN, TimePart
+from fieldhand.planning.grammar.times.windows import DAYLIGHT, WINDOWS
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.task.timing import WEEKDAYS, DayTime
 
@@ -184,6 +185,71 @@ def and_at_another(first: TimePart, then: TimePart) -> TimePart | None:
     return TimePart(at=(*first.at, *then.at))
 
 
+@construction("daytimes: one=daytime COMMA other=daytime", cost=0.1)
+def two_times(one: DayTime, other: DayTime) -> tuple[DayTime, ...]:
+    """Compose "6 am, noon" in a list."""
+    return (one, other)
+
+
+@construction("daytimes: known=daytimes COMMA other=daytime", cost=0.1)
+def more_times(known: tuple[DayTime, ...], other: DayTime) -> tuple[DayTime, ...]:
+    """Compose longer lists."""
+    return (*known, other)
+
+
+@construction("part: AT known=daytimes AND last=daytime", "part: AT known=daytimes COMMA AND last=daytime", cost=0.0)
+@construction("part: known=daytimes AND last=daytime", "part: known=daytimes COMMA AND last=daytime", cost=0.1)
+def at_times(known: tuple[DayTime, ...], last: DayTime) -> TimePart | None:
+    """Compose "at 6 am, noon and 6 pm"."""
+    return _at_all((*known, last))
+
+
+@construction("hour_list: one=NUM COMMA other=NUM", cost=0.1)
+def two_hours(one: Lex, other: Lex) -> tuple[float, ...]:
+    """Compose "6, 12" in a list of hours."""
+    return (one.value, other.value)
+
+
+@construction("hour_list: known=hour_list COMMA other=NUM", cost=0.1)
+def more_hours(known: tuple[float, ...], other: Lex) -> tuple[float, ...]:
+    """Compose longer lists."""
+    return (*known, other.value)
+
+
+@construction("part: AT first=NUM AND last=NUM OCLOCK", "part: AT known=hour_list AND last=NUM OCLOCK", cost=0.1)
+@construction("part: AT first=NUM AND last=NUM HOURS", "part: AT known=hour_list AND last=NUM HOURS", cost=0.1)
+@construction("part: AT known=hour_list COMMA AND last=NUM OCLOCK", cost=0.1)
+def at_hours(last: Lex, first: Lex | None = None, known: tuple[float, ...] = ()) -> TimePart | None:
+    """Compose "at 6, 12 and 18 o'clock", by the clock of 24 hours if one of them is."""
+    every = (*known, *(() if first is None else (first.value,)), last.value)
+    return _at_all(tuple(_clock(hour) for hour in every)) if max(every) > 12 else None
+
+
+@construction("part: AT first=NUM AND last=NUM AM", "part: AT known=hour_list AND last=NUM AM", cost=0.1)
+def at_hours_before_noon(last: Lex, first: Lex | None = None, known: tuple[float, ...] = ()) -> TimePart | None:
+    """Compose "at 6 and 8 am"."""
+    return _at_all_hours((*known, *(() if first is None else (first.value,)), last.value), 0)
+
+
+@construction("part: AT first=NUM AND last=NUM PM", "part: AT known=hour_list AND last=NUM PM", cost=0.1)
+def at_hours_after_noon(last: Lex, first: Lex | None = None, known: tuple[float, ...] = ()) -> TimePart | None:
+    """Compose "at 2, 4 and 6 pm"; "at 10, 12 and 2 pm" begins in the morning, which it does not say."""
+    return _at_all_hours((*known, *(() if first is None else (first.value,)), last.value), 12)
+
+
+def _at_all_hours(every: tuple[float, ...], noon: int) -> TimePart | None:
+    hours = [hour % 12 + noon for hour in every]
+    if not all(0 < hour <= 12 for hour in every) or hours != sorted(hours):
+        return None
+    return _at_all(tuple(_clock(hour) for hour in hours))
+
+
+def _at_all(times: tuple[DayTime | None, ...]) -> TimePart | None:
+    """Return several times of a day; None if one is none, or is said twice."""
+    known = tuple(at for at in times if at is not None)
+    return TimePart(at=known) if len({*known}) == len(times) else None
+
+
 @construction("part: BEFORE end=daytime", "part: BY end=daytime", "part: [RUN] FINISH BEFORE end=daytime", cost=0.1)
 @construction("part: FINISH BY end=daytime", "part: FINISH AT end=daytime", cost=0.0)
 def done_before(end: DayTime) -> TimePart:
@@ -352,6 +418,12 @@ def on_a_date(said: str) -> str:
     return said
 
 
+@construction("day: ENDOF month=MONTH", cost=0.0)
+def end_of_a_month(month: Lex) -> str:
+    """Compose "the end of June"; that of February is its 28th day."""
+    return f"--{month.value:02d}-{monthrange(2001, month.value)[1]:02d}"
+
+
 @construction("day: IN n=NUM DAYS", "day: n=NUM DAYS FROMNOW", cost=0.0)
 def days_from_now(n: Lex) -> str | None:
     """Compose "in 3 days"."""
@@ -381,35 +453,58 @@ def on_a_day(on: str = "", n: Lex | None = None) -> TimePart | None:
 @construction("part: NEXT said=WEEKDAY when=DAYPART", cost=0.1)
 def part_of_a_day(said: Lex, when: Lex) -> TimePart:
     """Compose "tomorrow morning"."""
-    return TimePart(day=said.value, choices=_times(when.value), half=_half(when))
+    return replace(_within(when.value), day=said.value)
 
 
-@construction("part: THISONE when=DAYPART", cost=0.1)
-def part_of_today(when: Lex) -> TimePart:
-    """Compose "this evening" beside an hour; alone it says no time."""
-    return TimePart(day="today", half=_half(when), needs_hour=True)
-
-
-def _half(when: Lex) -> Literal["am", "pm"]:
-    """Return the half of the day that a part of it lies in."""
-    return "am" if "morning" in when.text else "pm"
-
-
-@construction("part: TONIGHT", cost=0.1)
-def tonight() -> TimePart:
-    """Compose "tonight"."""
-    return TimePart(day="today", choices=_times(("20:00", "22:00", "dusk")), half="pm")
+@construction("part: THISONE when=DAYPART", "part: TONIGHT", cost=0.1)
+def part_of_today(when: Lex | None = None) -> TimePart:
+    """Compose "this evening" and "tonight"."""
+    return replace(_within("night" if when is None else when.value), day="today")
 
 
 @construction("part: IN THE when=DAYPART", "part: AT when=DAYPART", "part: DURING THE when=DAYPART", cost=0.3)
 def in_part_of_day(when: Lex) -> TimePart:
     """Compose "in the morning"."""
-    return TimePart(choices=_times(when.value), half=_half(when))
+    return _within(when.value)
 
 
-def _times(texts: tuple[str, ...]) -> tuple[DayTime, ...]:
-    """Return times of the lexicon."""
-    return tuple(DayTime(clock=text) if ":" in text else DayTime(sun=text) for text in texts)  # type: ignore[arg-type]
+@construction("part: DAYLIGHT", cost=0.2)
+def in_daylight() -> TimePart:
+    """Compose "during the day"."""
+    return TimePart(window=DAYLIGHT)
+
+
+@construction("part: EARLY day=part", "part: EARLY IN THE when=DAYPART", "part: EARLY IN THE when=DAYPARTS", cost=0.1)
+def early(day: TimePart | None = None, when: Lex | None = None) -> TimePart | None:
+    """Compose "early tomorrow" and "early in the morning"."""
+    return _part_of_a_window("early", day or _of(when))
+
+
+@construction("part: LATE day=part", "part: LATE IN THE when=DAYPART", "part: LATE IN THE when=DAYPARTS", cost=0.1)
+def late(day: TimePart | None = None, when: Lex | None = None) -> TimePart | None:
+    """Compose "late in the afternoon" and "late tomorrow morning"."""
+    return _part_of_a_window("late", day or _of(when))
+
+
+def _of(when: Lex | None) -> TimePart:
+    if when is None:
+        return TimePart()
+    return replace(_within(when.value), repeats=when.text.endswith("s"))
+
+
+def _part_of_a_window(which: str, day: TimePart) -> TimePart | None:
+    """Return a part of a day with the beginning or the end of the window that it names; "early" alone is a morning."""
+    if day.takes is None:
+        return None
+    named = "morning" if day.takes == DAYLIGHT and which == "early" else day.takes.part
+    found = WINDOWS.get(f"{which} {named}")
+    return None if found is None else replace(day, window=found, half=found.half)
+
+
+def _within(part: str) -> TimePart:
+    """Return a part of the day."""
+    window = WINDOWS[part]
+    return TimePart(window=window, half=window.half)
 
 
 # --- repetition ---------------------------------------------------------------------------------------------------
@@ -418,13 +513,13 @@ def _times(texts: tuple[str, ...]) -> tuple[DayTime, ...]:
 @construction("part: DAILY", cost=0.0)
 def daily() -> TimePart:
     """Compose "every day"."""
-    return TimePart(repeats=True)
+    return TimePart(repeats=True, every_days=1)
 
 
-@construction("part: EVERY when=DAYPART", cost=0.0)
+@construction("part: EVERY when=DAYPART", "part: IN THE when=DAYPARTS", cost=0.0)
 def every_part(when: Lex) -> TimePart:
-    """Compose "every morning"."""
-    return TimePart(repeats=True, choices=_times(when.value), half=_half(when))
+    """Compose "every morning" and "in the mornings"."""
+    return replace(_within(when.value), repeats=True)
 
 
 @construction("part: TWICEDAILY", cost=0.0)
@@ -438,13 +533,13 @@ def every_third_morning(n: Lex, when: Lex) -> TimePart | None:
     """Compose "every third morning"."""
     if n.value != int(n.value) or not 1 < n.value <= 366:
         return None
-    return TimePart(repeats=True, every_days=int(n.value), choices=_times(when.value), half=_half(when))
+    return replace(_within(when.value), repeats=True, every_days=int(n.value))
 
 
 @construction("part: FIRSTTHING", cost=0.1)
 def first_thing() -> TimePart:
     """Compose "first thing" beside a day."""
-    return TimePart(choices=_times(("06:00", "08:00", "sunrise")), half="am", needs_day=True)
+    return replace(_within("morning"), needs_day=True)
 
 
 @construction("part: HOURLY", cost=0.0)
@@ -476,7 +571,7 @@ def every_days(n: Lex) -> TimePart | None:
     """Compose "every 3 days" and "every third day"."""
     if n.value != int(n.value) or not 0 < n.value <= 366:
         return None
-    return TimePart(repeats=True, every_days=int(n.value) if n.value > 1 else 0)
+    return TimePart(repeats=True, every_days=int(n.value))
 
 
 @construction("part: EVERY n=NUM WEEKS", cost=0.0)
@@ -564,9 +659,8 @@ def weekdays(days: Lex) -> TimePart:
 
 
 def _repeated(days: tuple[str, ...], when: Lex | None) -> TimePart:
-    choices = () if when is None else _times(when.value)
     known = tuple(day for day in WEEKDAYS if day in days)
-    return TimePart(repeats=True, weekdays=known, choices=choices, half="" if when is None else _half(when))
+    return replace(TimePart() if when is None else _within(when.value), repeats=True, weekdays=known)
 
 
 # --- bounds of the days -------------------------------------------------------------------------------------------
@@ -623,4 +717,4 @@ def both(one: TimePart, other: TimePart) -> TimePart | None:
     """Compose "every day at 6 am until Friday"."""
     if one.at and other.at:
         return None
-    return one & other
+    return one & other or one.disputing(other)

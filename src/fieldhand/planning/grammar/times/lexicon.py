@@ -68,8 +68,8 @@ def _entries() -> Mapping[tuple[str, ...], tuple[tuple[str, Any], ...]]:
         for phrase, value in table[section].items():
             kept = tuple(value) if isinstance(value, list) else value
             found.setdefault(tuple(phrase.split()), []).append((category, kept))
-    for part, times in table["daypart"].items():
-        found.setdefault((*part.split()[:-1], f"{part.split()[-1]}s"), []).append(("DAYPARTS", tuple(times)))
+    for phrase, part in table["daypart"].items():
+        found.setdefault((*phrase.split()[:-1], f"{phrase.split()[-1]}s"), []).append(("DAYPARTS", part))
     for unit, days in _LONG.items():
         found.setdefault((unit,), []).append(("LONG", days))
     return {phrase: tuple(entries) for phrase, entries in found.items()}

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
-from typing import Literal
 
+from fieldhand.planning.grammar.times.windows import DAYLIGHT, DayWindow, Half, contradicts
 from fieldhand.task.plan import Span
-from fieldhand.task.timing import DayTime, Schedule, StartTime, Timing, Weekday
+from fieldhand.task.timing import ANY_TIME_MIN, DayTime, Schedule, StartTime, Timing, Weekday
 
 #: Minutes within which a mission begins that is to begin at a time, and one that is to begin at about a time.
 PUNCTUAL_MIN, ROUGHLY_MIN = 15, 30
@@ -21,17 +21,18 @@ class TimePart:
         repeats: True if the mission runs again and again.
         day: Day of a mission that runs once.
         weekdays: Days of the week.
-        every_days: Number of days from one run to the next; 0 if not said.
+        every_days: Number of days from one run to the next, 1 for every day; 0 if not said.
         every_min: Number of minutes from one run to the next; 0 if not said.
         at: Times at which it begins.
         late_min: Minutes after these within which it may begin; 0 if not said.
-        choices: Times to choose from, where only a part of the day is named.
+        choices: Times to choose from, where an hour may be in the morning or in the evening.
+        window: Part of the day, where one is named.
         not_before, done_by: Bounds of the time of day.
         first_day, last_day: Bounds of the days.
         hour_at, hour_after, hour_before: Hours of the clock of 12 hours at which it begins, before which it does not,
             and before which it is done; 0 if not said.
         half: Half of the day of these hours, if the phrase says it.
-        needs_hour: True if it is no time without one of them ("this evening").
+        disputed: True if a time is said that lies in another part of the day than the one that is said.
         needs_day: True if it is no time without a day ("first thing").
         times_a_day: Number of times of the day that must be said ("twice a day"); 0 if not said.
     """
@@ -44,6 +45,7 @@ class TimePart:
     at: tuple[DayTime, ...] = ()
     late_min: int = 0
     choices: tuple[DayTime, ...] = ()
+    window: DayWindow | None = None
     not_before: DayTime | None = None
     done_by: DayTime | None = None
     first_day: str = ""
@@ -51,8 +53,8 @@ class TimePart:
     hour_at: float = 0.0
     hour_after: float = 0.0
     hour_before: float = 0.0
-    half: Literal["", "am", "pm"] = ""
-    needs_hour: bool = False
+    half: Half = ""
+    disputed: bool = False
     times_a_day: int = 0
     needs_day: bool = False
 
@@ -65,24 +67,63 @@ class TimePart:
                 return None
             merged[field.name] = mine or theirs
         both = TimePart(**merged)  # type: ignore[arg-type]  # each value is that of its field
-        return None if both._is_in_other_half else both
+        return None if both.is_in_other_half else both
+
+    def disputing(self, other: TimePart) -> TimePart | None:
+        """Return both parts together, even if a time of one lies in another part of the day than the other says.
+
+        None if they contradict each other in anything else.
+        """
+        both = replace(self, window=None, half="") & replace(other, window=None, half="")
+        window, half = self.window or other.window, self.half or other.half
+        if both is None or window is None or {self.half, other.half} != {"", half} or both._bounds or not both.at:
+            return None
+        return replace(both, window=window, half=half, disputed=True)
 
     @property
-    def _is_in_other_half(self) -> bool:
+    def _bounds(self) -> tuple[DayTime, ...]:
+        return tuple(at for at in (self.not_before, self.done_by) if at is not None)
+
+    @property
+    def is_in_other_half(self) -> bool:
         """True for "at 17:30 in the morning"."""
-        times = [at.clock for at in (*self.at, self.not_before) if at is not None and at.sun is None]
-        return bool(self.half) and any((clock < "12:00") != (self.half == "am") for clock in times)
+        times = [at for at in (*self.at, self.not_before) if at is not None]
+        return not self.disputed and any(contradicts(at, self.half) for at in times)
+
+    @property
+    def says_how_often(self) -> bool:
+        """True for "every day" and "on Mondays", but not for "until Friday"."""
+        return self.repeats and bool(self.every_days or self.every_min or self.weekdays or self.window)
+
+    @property
+    def _runs_all_night(self) -> bool:
+        """True for runs from hour to hour that go on after midnight."""
+        return bool(self.every_min) and self.window is not None and self.window.half == "night"
+
+    @property
+    def takes(self) -> DayWindow | None:
+        """The part of the day in which it takes place, if no time of the day is said."""
+        if self._says_a_time:
+            return None
+        if self.window is not None:
+            return self.window
+        by_day = self.says_how_often if self.repeats else self.weekdays or self.day not in ("", "today")
+        return DAYLIGHT if by_day else None
+
+    @property
+    def _says_a_time(self) -> bool:
+        return bool(self._hours or self.at or self._bounds or self.every_min or self.choices)
 
     @property
     def asks(self) -> tuple[DayTime, ...]:
         """The times of day to choose from, if it says no time."""
         if (hours := self._hours) and not (self.half or self._usual_half):
             return (_clock(hours[0], "am"), _clock(hours[0], "pm"))
-        if hours or self.at or self.not_before or self.done_by or self.every_min:
+        if hours or self.at or self._bounds or self.every_min:
             return ()
-        if self.choices:
+        if self.choices or self.takes is not None:
             return self.choices
-        return _USUAL if self.repeats or self.weekdays or self.day not in ("", "today") else ()
+        return _USUAL if self.repeats else ()
 
     @property
     def _hours(self) -> tuple[float, ...]:
@@ -96,17 +137,12 @@ class TimePart:
         return _clock(hours[0], self._usual_half) if hours and not self.half and self._usual_half else None
 
     @property
-    def _usual_half(self) -> Literal["", "am", "pm"]:
+    def _usual_half(self) -> Half:
         """The half of the day of the first hour that is usual; that of a range from 6 to 8 on is the morning."""
         hours = self._hours
         if len(hours) > 1 and 6.0 <= hours[0] < 9.0:
             return "am"
         return _usual_half(hours[0]) if hours else ""
-
-    @property
-    def provisional(self) -> TimePart:
-        """The part with the first of the hours to choose from."""
-        return self.answered(self.asks[0]) if self._hours and self.asks else self
 
     def answered(self, at: DayTime) -> TimePart:
         """Return the part with the time that was chosen of those to choose from."""
@@ -115,10 +151,10 @@ class TimePart:
         return replace(self, at=(at,), choices=())
 
     def _on_the_clock(self) -> TimePart | None:
-        """Return the part with times of the clock of 24 hours; None if it says a time twice, or none at all."""
+        """Return the part with times of the clock of 24 hours; None if it says a time twice."""
         hours = self._hours
         if not hours:
-            return None if self.needs_hour and not (self.at or self.not_before or self.done_by) else self
+            return self
         half = self.half or self._usual_half
         if (
             not half
@@ -129,7 +165,9 @@ class TimePart:
             return None
         first = _clock(hours[0], half)
         last = _clock(hours[-1], half)
-        if len(hours) > 1 and last.clock <= first.clock:
+        if half == "night" and self._is_of_a_day and any(_clock(hour, half).clock < "12:00" for hour in hours[:1]):
+            return None  # "tonight at two" is on the next day
+        if len(hours) > 1 and half != "night" and last.clock <= first.clock:
             last = _clock(hours[-1], "pm" if half == "am" else "am")
         return replace(
             self,
@@ -156,7 +194,18 @@ class TimePart:
     def _resolved(self) -> TimePart | None:
         """Return the part with a day of the week as a single day, or as days of a standing mission."""
         timed = self._on_the_clock()
-        return None if timed is None else timed._on_days()
+        return None if timed is None or timed.disputed or timed._runs_all_night else timed._in_its_window()._on_days()
+
+    def _in_its_window(self) -> TimePart:
+        """Return the part with the bounds of the part of the day that it names, or of daylight."""
+        if (window := self.takes) is not None:
+            return replace(self, not_before=window.begin, done_by=window.end, late_min=self.late_min or ANY_TIME_MIN)
+        if self.every_min and self.window is not None and not (self.at or self._bounds):
+            return replace(self, not_before=self.window.begin, done_by=self.window.end)
+        if self.repeats and self.window is not None and self.done_by is not None and not (self.at or self.not_before):
+            shorter = self.window.until(self.done_by)  # "every morning before 9"
+            return self if shorter is None else replace(self, not_before=shorter.begin, late_min=ANY_TIME_MIN)
+        return self
 
     def _on_days(self) -> TimePart | None:
         if self.times_a_day not in (0, len(self.at)) or (self.needs_day and not (self.day or self.weekdays)):
@@ -167,7 +216,15 @@ class TimePart:
             return None if self.day else replace(self, day=self.weekdays[0], weekdays=())
         return self
 
-    def _once(self, said: tuple[Span, ...], zone: str) -> StartTime | None:
+    @property
+    def _is_of_a_day(self) -> bool:
+        return bool(self.day or self.weekdays)
+
+    def _once(self, said: tuple[Span, ...], zone: str) -> Timing | None:
+        if len(self.at) > 1 and self.day and not (self._bounds or self.first_day or self.last_day):
+            last = self.day if self.day[:1] in "-2" else "today"  # which counts from the first day
+            several = replace(self, repeats=True, day="", first_day=self.day, last_day=last)
+            return several._standing(said, zone)
         if len(self.at) > 1 or self.first_day or self.last_day or self.every_days or self.every_min:
             return None
         begin = self.at[0] if self.at else self.not_before
@@ -178,14 +235,18 @@ class TimePart:
 
     def _standing(self, said: tuple[Span, ...], zone: str) -> Schedule | None:
         at = self.at or (() if self.not_before is None else (self.not_before,))
-        within = 0
+        within, done_by = 0, None
         if self.done_by is not None and not self.every_min:
             length = None if len(at) != 1 else _minutes_between(at[0], self.done_by)
-            if length is None:
+            if not at:
                 return None
-            within = length
+            if length is None or self.late_min == ANY_TIME_MIN:
+                done_by = self.done_by
+            else:
+                within = length
         if self.day:
             return None
+        late = ANY_TIME_MIN if done_by is not None and not self.at else 60
         return Schedule(
             at=at,
             every_min=self.every_min,
@@ -194,8 +255,9 @@ class TimePart:
             every_days=self.every_days or 1,
             first_day=self.first_day,
             last_day=self.last_day,
-            late_min=self.late_min or (min(60, self.every_min) if self.every_min else 60),
+            late_min=self.late_min or (min(60, self.every_min) if self.every_min else late),
             done_by_min=within,
+            done_by=done_by,
             time_zone=zone,
             said=said,
         )
@@ -205,7 +267,7 @@ class TimePart:
 _USUAL = (DayTime(clock="06:00"), DayTime(clock="08:00"), DayTime(clock="12:00"), DayTime(sun="sunrise"))
 
 
-def _usual_half(hour: float) -> Literal["", "am", "pm"]:
+def _usual_half(hour: float) -> Half:
     """Return the half of the day in which people work at an hour of 12; empty if they may in both."""
     if hour >= 12.0 or hour < 6.0:
         return "pm"
@@ -213,8 +275,9 @@ def _usual_half(hour: float) -> Literal["", "am", "pm"]:
 
 
 def _clock(hour: float, half: str) -> DayTime:
-    """Return an hour of the clock of 12 hours, such as 9.5, as a time of the day."""
-    minutes = round((hour % 12) * 60) + (720 if half == "pm" else 0)
+    """Return an hour of the clock of 12 hours, such as 9.5, as a time of the day; at night, those from 6 on are p.m."""
+    late = half == "pm" or (half == "night" and 6.0 <= hour < 12.0)
+    minutes = round((hour % 12) * 60) + (720 if late else 0)
     return DayTime(clock=f"{minutes // 60:02d}:{minutes % 60:02d}")
 
 

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 
 from fieldhand.language import message
+from fieldhand.language.words import listed
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.english.vocabulary import vocabulary
 from fieldhand.planning.grammar.chart import Chart, PhraseEdge
 from fieldhand.planning.grammar.times.constructions import GRAMMAR
 from fieldhand.planning.grammar.times.lexicon import time_edges
 from fieldhand.planning.grammar.times.meaning import TimePart
+from fieldhand.planning.grammar.times.windows import without_a_time
 from fieldhand.planning.planner import Answer
 from fieldhand.task.plan import Span
 from fieldhand.task.timing import Timing
@@ -21,9 +24,16 @@ from fieldhand.wording.timing import say_day_time
 _OF_SOMETHING_ELSE = frozenset(
     {"if", "when", "whenever", "unless", "once", "while", "until", "till", "since", "than", "was", "were", "been", "is"}
     | {"are", "had", "has", "have", "did", "wait", "waits", "waiting", "of", "taken", "seen", "before", "after", "not"}
+    | {"from", "by", "done", "made", "shot", "found", "left", "mown", "cut", "driven", "gone", "went", "already"}
 )
 #: Words that part a request into steps, of which a single time can begin only the first.
-_PARTING = frozenset({"then", "afterwards", "afterward", "next", "later", "finally", "again"})
+_PARTING = frozenset(
+    {"then", "afterwards", "afterward", "next", "later", "finally", "again", "now", "immediately", "meanwhile"}
+)
+
+
+#: Words behind which a part of this day may be past.
+_PAST = frozenset({"was", "were", "had", "did", "got", "been", "has", "have", "already"})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,6 +80,8 @@ def without_times(words: Sequence[Word], earlier: frozenset[int] = frozenset()) 
         return None
     if part.every_min and not part.last_day and _says_how_often(words):
         return None  # "every ten minutes, six times" is one mission
+    if sum(phrase.meaning.says_how_often for phrase in phrases) > 1:
+        return None  # "photograph row 3 every day, and row 4 every Monday"
     taken = frozenset(token for phrase in phrases for token in range(phrase.start, phrase.end))
     single = not part.repeats and len(part.weekdays) < 2
     if single and not all(_is_of_beginning(one, words, taken) for one in phrases):
@@ -93,21 +105,48 @@ def _says_how_often(words: Sequence[Word]) -> bool:
     )
 
 
-def asked_time(part: TimePart) -> tuple[str, tuple[str, ...]] | None:
-    """Return the question for the time of day and its choices; None if it is said."""
-    times = part.asks
+@dataclass(frozen=True, kw_only=True)
+class TimeQuestion:
+    """A question about the times of a request.
+
+    Attributes:
+        question: The question.
+        choices: Answers to choose from, with the times that they lead to.
+    """
+
+    question: str
+    choices: tuple[tuple[str, TimePart], ...]
+
+
+def asked_time(part: TimePart) -> TimeQuestion | None:
+    """Return the question for the time of day, or for the days of several times; None if they are said."""
+    if part.disputed and part.window is not None:
+        at = listed([say_day_time(one) for one in part.at])
+        choices = [
+            (message("at {time}", time=at), replace(part, disputed=False, window=None, half="")),
+            (part.window.choice, replace(part, disputed=False, at=(), late_min=0)),
+        ]
+        return TimeQuestion(question=message("At what time of the day?", context="question"), choices=tuple(choices))
+    if len(part.at) > 1 and not (part.repeats or part.weekdays or part.day):
+        days = [
+            (message("every day", context="answer"), replace(part, repeats=True, every_days=1)),
+            (message("today", context="answer"), replace(part, day="today")),
+            (message("tomorrow", context="answer"), replace(part, day="tomorrow")),
+        ]
+        return TimeQuestion(question=message("On which days?", context="question"), choices=tuple(days))
+    times = [(message("at {time}", time=say_day_time(at)), part.answered(at)) for at in part.asks]
     if not times:
         return None
-    choices = tuple(message("at {time}", time=say_day_time(at)) for at in times)
-    return message("At what time of the day?", context="question"), choices
+    return TimeQuestion(question=message("At what time of the day?", context="question"), choices=tuple(times))
 
 
 def assumed_times(part: TimePart) -> tuple[str, ...]:
-    """Return what is assumed of an hour of which nothing says whether it is in the morning or later, as sentences."""
-    at = part.assumed_half
-    if at is None:
-        return ()
-    return (message("The hour is taken as {time}.", context="assumption", time=say_day_time(at)),)
+    """Return what is assumed of an hour or a day that leaves its time open, as sentences."""
+    if (at := part.assumed_half) is not None:
+        return (message("The hour is taken as {time}.", context="assumption", time=say_day_time(at)),)
+    if (window := part.takes) is not None:
+        return (window.assumption if part.window is not None else without_a_time(),)
+    return ()
 
 
 def with_answer(part: TimePart, answers: Sequence[Answer]) -> tuple[TimePart, Answer] | None:
@@ -115,17 +154,17 @@ def with_answer(part: TimePart, answers: Sequence[Answer]) -> tuple[TimePart, An
     asked = asked_time(part)
     if asked is None:
         return None
-    question, choices = asked
     for answer in answers:
-        if answer.question != question:
+        if answer.question != asked.question:
             continue
-        if answer.answer in choices:
-            return part.answered(part.asks[choices.index(answer.answer)]), answer
+        if (chosen := dict(asked.choices).get(answer.answer)) is not None:
+            return chosen, answer
         from fieldhand.planning.english.tokens import words_of
 
         given = list(_phrases(words_of(answer.answer)))
-        joined = replace(part, choices=(), half="") & given[0].meaning if len(given) == 1 else None
-        if joined is not None and not joined.asks:
+        open_part = replace(part, disputed=False, choices=(), window=None, half="", at=() if part.disputed else part.at)
+        joined = open_part & given[0].meaning if len(given) == 1 else None
+        if joined is not None and asked_time(joined) is None:
             return joined, answer
     return None
 
@@ -135,7 +174,7 @@ def _phrases(words: Sequence[Word]) -> Iterator[PhraseEdge]:
     chart = Chart(GRAMMAR, len(words), frozenset(), given={})
     chart.parse(time_edges(words))
     best: dict[int, list[PhraseEdge]] = {}
-    for edge in (edge for edge in chart.all_edges() if edge.category == "part"):
+    for edge in (edge for edge in chart.all_edges() if edge.category == "part" and not _is_number_of(edge, words)):
         known = best.get(edge.start)
         if known is None or (-edge.end, edge.cost) < (-known[0].end, known[0].cost):
             best[edge.start] = [edge]
@@ -146,6 +185,29 @@ def _phrases(words: Sequence[Word]) -> Iterator[PhraseEdge]:
         if start >= at:
             yield _either(best[start])
             at = best[start][0].end
+
+
+def _is_number_of(edge: PhraseEdge, words: Sequence[Word]) -> bool:
+    """Return True if a phrase begins with the number of a plant: "tree 4 in the morning", "rows 3 and 4 at noon"."""
+    if edge.start == 0 or not _is_number(words[edge.start]):
+        return False
+    before = words[edge.start - 1]
+    if before.kind == "comma" or before.norm in ("and", "or", "to", "-", "&"):
+        return edge.start > 1 and _is_number(words[edge.start - 2])
+    return before.norm in _numbered_nouns()
+
+
+def _is_number(word: Word) -> bool:
+    return word.kind == "number" or word.norm in vocabulary()["numbers"]
+
+
+@cache
+def _numbered_nouns() -> frozenset[str]:
+    """Return the words for what has numbers, in both numbers."""
+    from fieldhand.planning.english.inflection import plural_of
+
+    nouns = [noun for kind in ("TREE", "PLOT", "ROW", "AISLE") for noun in vocabulary()["nouns"][kind]]
+    return frozenset(form.split()[-1] for noun in (*nouns, "bed", "number", "zone") for form in (noun, plural_of(noun)))
 
 
 def _either(edges: Sequence[PhraseEdge]) -> PhraseEdge:
@@ -174,7 +236,17 @@ def _is_of_beginning(phrase: PhraseEdge, words: Sequence[Word], taken: frozenset
         alone = phrase.end == len(words) or words[phrase.end].kind == "stop"
         return alone or not any(word.kind == "word" for word in before)
     sentences = [word for word in before if word.kind == "stop"]
-    return not sentences and not any(word.norm in _PARTING for word in before)
+    if phrase.meaning.day == "today" and phrase.meaning.takes is not None and any(w.norm in _PAST for w in before):
+        return False  # "the trees that were dry this morning"
+    return not sentences and not any(_parts(before, k) for k in range(len(before)))
+
+
+def _parts(words: Sequence[Word], k: int) -> bool:
+    """Return True if a word parts a request into steps: "then", "after that", and "first" of a step."""
+    behind = words[k + 1].norm if k + 1 < len(words) else ""
+    if words[k].norm == "first":
+        return behind in ("and", ",", "")
+    return words[k].norm in _PARTING or (words[k].norm == "after" and behind in ("that", "this", "it", "which"))
 
 
 def _marks_of(phrase: PhraseEdge, words: Sequence[Word]) -> Iterator[int]:
@@ -194,5 +266,5 @@ def _beside(phrase: PhraseEdge, words: Sequence[Word]) -> tuple[Span, ...]:
     return tuple(
         (words[token].start, words[token].end)
         for token in near
-        if 0 <= token < len(words) and words[token].kind not in ("stop", "comma")
+        if 0 <= token < len(words) and words[token].kind not in ("stop", "comma") and words[token].norm != "please"
     )
