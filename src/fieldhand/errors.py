@@ -27,6 +27,7 @@
         ├── Ros2Error               unreachable over ROS 2, or inconsistent with its profile
         ├── DriveFault              leg that cannot be driven
         │   ├── BlockedFault        no way left around the blockages that the robot found
+        │   │   └── OccupiedFault   obstacle where the robot would stand
         │   └── LostFault           unknown position
         └── ActionFault             failed action or sensor
 
@@ -57,6 +58,7 @@ __all__ = [
     "NotApprovedError",
     "NotConfirmedError",
     "NotTrustedError",
+    "OccupiedFault",
     "OutputError",
     "PlaceError",
     "PluginError",
@@ -250,6 +252,10 @@ class DriveFault(ExecutionError):
 
 class BlockedFault(DriveFault):
     """Every way to a place is blocked, as far as the robot found."""
+
+
+class OccupiedFault(BlockedFault):
+    """Something stands wherever the robot would stand at a place, as far as it found."""
 
 
 class LostFault(DriveFault):

@@ -273,6 +273,13 @@ def test_a_paused_mission_that_is_cut_off_is_paused_again(tmp_path: Path) -> Non
     assert captured(result.events) == captured(Field(tmp_path / "whole").fly().events)
 
 
+def test_a_mission_that_pauses_by_itself_can_be_told_to_go_on(tmp_path: Path) -> None:
+    order_file = CommandFile(tmp_path / "orders.sqlite")
+    order_file.create()
+    assert order_file.give("continue", "the operator") == 1
+    assert order_file.give("pause", "lunch") == 2
+
+
 def test_orders_lie_where_another_process_finds_them(tmp_path: Path) -> None:
     order_file = CommandFile(tmp_path / "orders.sqlite")
     order_file.create()

@@ -12,7 +12,7 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -43,7 +43,7 @@ from support.processes.patience import until
 _FASTER = 5.0
 _LEASE = "<Discovery><LeaseDuration>2s</LeaseDuration></Discovery></Domain>"
 #: So that a mission need not wait for minutes.
-_PATIENCE = Patience(blocked_wait_s=2.0, lost_wait_s=4.0)
+_PATIENCE = Patience(blocked_wait_s=2.0, lost_wait_s=4.0, navigation_wait_s=4.0)
 
 
 class RobotInProcess:
@@ -165,13 +165,13 @@ class Meeting:
 
 @contextmanager
 def connected_simulated_robot(
-    site: str, robot: str, task: Task, *, seed: int, tick_s: float
+    site: str, robot: str, task: Task, *, seed: int, tick_s: float, world: Mapping[str, Any] = {}
 ) -> Iterator[tuple[Vehicle, RobotInProcess]]:
     """A simulated robot in another process, as the vehicle of a mission: both live on one time."""
     far, profile = RobotInProcess(), load_robot(robot)
     node: DdsTransport | None = None
     try:
-        far.tell("new_simulated_robot", site=site, robot=robot, seed=seed)
+        far.tell("new_simulated_robot", site=site, robot=robot, seed=seed, world=world)
         bound = bindings_of(profile)
         known = Interfaces.of(bound.distro, bound.interfaces)
         node = open_dds(known)

@@ -18,7 +18,7 @@ from fieldhand.execution.drivers.ros2.dds.transport import DdsTransport
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.simulated_robot.robot import GoalReport, SimulatedRobot, bindings_of
 from fieldhand.execution.drivers.ros2.transport import QosProfile
-from fieldhand.execution.drivers.simulation.world import World
+from fieldhand.execution.drivers.simulation.world_file import parse_world
 from fieldhand.robot.loader import load_robot
 from fieldhand.site.loader import open_site
 from ros2.scripted import Script, ScriptedAction
@@ -68,8 +68,8 @@ class Process:
         self.change(**switches)
         self._listen()
 
-    def new_simulated_robot(self, site: str, robot: str, seed: int) -> None:
-        """The simulated robot of a site and a profile, in place of the one before."""
+    def new_simulated_robot(self, site: str, robot: str, seed: int, world: Mapping[str, Any] = {}) -> None:
+        """The simulated robot of a site, a profile and a world, in place of the one before."""
         self.end()
         profile = load_robot(robot)
         bound = bindings_of(profile)
@@ -79,7 +79,7 @@ class Process:
         simulated = SimulatedRobot(
             open_site(site),
             profile,
-            World(),
+            parse_world(world),
             self.nodes[0],
             known,
             self.clock,
@@ -147,7 +147,11 @@ class Process:
         """Return the place at which the robot is; of the simulated one, the goals that succeeded."""
         robot = self.robots[0]
         if isinstance(robot, SimulatedRobot):
-            return {"made": [(said.name, said.place) for said in self.said_of_goals if said.end == "succeeded"]}
+            return {
+                "made": [(said.name, said.place) for said in self.said_of_goals if said.end == "succeeded"],
+                "ends": [(said.name, said.end) for said in self.said_of_goals],
+                "driven_m": robot.platform.metres,
+            }
         return {"executing": len(robot.navigation.executing) + len(robot.sampler.executing), "xy": robot.xy,
                 "goals": len(robot.navigation.received), "driven_m": robot.driven_m}  # fmt: skip
 

@@ -19,7 +19,7 @@ from fieldhand.execution.drivers.ros2.driver import LOST_S, Ros2Driver
 from fieldhand.execution.drivers.ros2.telemetry import JUMPED_S, Telemetry
 from fieldhand.site.model import Place, Site
 from fieldhand.testing.driver_contract import DriverContract, drive_goal, finish
-from ros2.in_memory import Disturbed, Graph
+from ros2.in_memory import Disturbed, Graph, Node
 from ros2.scripted import Script, ScriptedAction
 from ros2.scripted_robot import ACTIONS, SAMPLED, SITE, World, bindings, navigating, world
 from support.examples import examples
@@ -153,7 +153,8 @@ def test_a_map_that_is_turned_otherwise_than_the_profile_says_is_found_before_it
         (201, {}, "failed", "the planner that is configured does not exist (code 201 of Nav2)"),
         (4711, {}, "failed", "navigation failed (code 4711 of Nav2)"),
         (4711, {"codes": {4711: "blocked"}}, "blocked", "navigation failed (code 4711 of Nav2)"),
-        (0, {}, "blocked", "navigation failed without an error code"),
+        (0, {}, "interrupted", "navigation ended the drive without an error code"),
+        (0, {"without_code": "blocked"}, "blocked", "navigation failed without an error code"),
         (0, {"without_code": "failed"}, "failed", "navigation failed without an error code"),
     ],
 )
@@ -178,6 +179,7 @@ def test_what_nav2_says_beside_its_code_is_told_and_a_goal_that_others_cancel_ha
     driver.start_drive(drive(NEAR))
     progress = finish(driver, w.clock)
     assert (progress.state, progress.what) == ("failed", "another client cancelled the drive")
+    assert progress.fault == "interrupted"
 
 
 def test_a_missed_waypoint_is_no_success() -> None:
@@ -188,7 +190,7 @@ def test_a_missed_waypoint_is_no_success() -> None:
     driver.start_drive(drive(NEAR))
     progress = finish(driver, w.clock)
     assert (progress.state, progress.fault, progress.what) == (
-        "failed", "blocked", "the goal lies in an obstacle (code 206 of Nav2)"
+        "failed", "occupied", "the goal lies in an obstacle (code 206 of Nav2)"
     )  # fmt: skip
 
 
@@ -603,6 +605,35 @@ def test_a_server_killed_in_mid_goal_while_the_sensors_live() -> None:
     assert "/husky/navigate_to_pose was silent for 15 s; then" in progress.what
     assert "does not confirm that it was cancelled" in progress.what
     assert "use its emergency stop" in progress.what
+
+
+def test_a_navigator_that_is_killed_and_started_again_is_two_servers_for_a_while() -> None:
+    w = world()
+    kind, nodes = w.robot.bound.navigation.type, [w.graph.node(), w.graph.node()]
+
+    def serve(node: Node) -> None:
+        name = "/husky/navigate_to_pose"
+        w.robot.navigation = ScriptedAction(node, name, kind, w.clock.now, w.robot._set_out)
+
+    w.robot.navigation.close()
+    serve(nodes[0])
+    driver = w.connect()
+    driver.start_drive(drive())
+    w.clock.advance(3.0)
+    nodes[0].vanish()
+    w.clock.advance(2.0)
+    serve(nodes[1])
+    progress = finish(driver, w.clock)
+    assert (progress.state, progress.fault) == ("failed", "interrupted")
+    assert "/husky/navigate_to_pose no longer knows the goal: it was restarted" in progress.what
+    assert driver.away() == "2 servers answer it"
+    begun = w.clock.now()
+    while driver.away() is not None:
+        w.clock.advance(0.2)
+        driver.poll()
+    assert w.clock.now() - begun < 15.0
+    driver.start_drive(drive_goal(driver.position().as_place(), FAR))
+    assert finish(driver, w.clock).state == "succeeded"
 
 
 def test_what_the_network_does_not_take_is_sent_again(monkeypatch: pytest.MonkeyPatch) -> None:

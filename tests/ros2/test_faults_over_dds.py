@@ -214,8 +214,8 @@ def test_a_way_that_is_blocked_for_good(meet: Meet) -> None:
 def test_navigation_that_ends_in_mid_drive(meet: Meet) -> None:
     meeting = meet()
     result = flown(meeting, go("r3c4"), after_m=3.0, then=lambda: meeting.robot.tell("change", without="navigation"))
-    ended(result, "faulted", "stay", f"nothing answers {NAVIGATION}; check whether Nav2 is active")
-    (first, _) = [e.what for e in of_type(result.events, Faulted)]
+    ended(result, "faulted", "stay", rf"within 4 s \(nothing answers {NAVIGATION}\); check whether Nav2 is active")
+    (first, _, _) = [e.what for e in of_type(result.events, Faulted)]
     assert f"{NAVIGATION} is gone: nothing answers any more; check whether Nav2 runs on the robot; if it" in first
 
 

@@ -341,6 +341,10 @@ class ActiveMission:
         if place.kind == "tree" and place.id not in self.visited:
             self.visited.append(place.id)
 
+    def stands_anew(self) -> None:
+        """Record that the robot may have been moved by others."""
+        self.arrived_at, self.standing = None, self._stands()
+
     def start_drive(self, node: str, place: Place) -> None:
         """Start a drive.
 

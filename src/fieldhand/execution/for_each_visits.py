@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from fieldhand.errors import BlockedFault, NoPlaceError
+from fieldhand.errors import BlockedFault, NoPlaceError, OccupiedFault
 from fieldhand.execution.active_mission import ActiveMission
 from fieldhand.execution.docking import ChargeFirst
 from fieldhand.execution.obstacles import cut_off_places
@@ -42,7 +42,8 @@ class ForEachVisits:
     """The visits of a for-each.
 
     A place that obstacles make unreachable is postponed to the end. If it is then still unreachable, it is given up; if
-    the visits were mandatory, the loop fails once all others are made.
+    the visits were mandatory, the loop fails once all others are made. If only something stands where the robot would
+    stand, it does not fail where there is other work and no ``try`` that expects the failure.
 
     Args:
         mission: The mission.
@@ -64,6 +65,7 @@ class ForEachVisits:
         self.left: list[Visit] = []
         self.cut_off: list[Visit] = []
         self._missed: list[Place] = []
+        self._occupied: set[tuple[str, str, str]] = set()
         self._made = 0
         self._why = ""
         self._ways = mission.blockages.version
@@ -112,9 +114,16 @@ class ForEachVisits:
             self.place = self._chosen() if self.node.optional else self._in_order()
         elif self.cut_off:
             self.place = self.cut_off[0].place
-        elif self._missed:
-            raise BlockedFault(f"{_missed(self._missed)}: {self._why}")
+        elif missed := self._failing():
+            raise BlockedFault(f"{_missed(missed)}: {self._why}")
         return self.place
+
+    def _failing(self) -> list[Place]:
+        """Return the places for which the loop fails."""
+        run = self.mission.run
+        if run.is_caught or not (self._made or any(frame.left for frame in run.outwards())):
+            return self._missed
+        return [place for place in self._missed if place.key not in self._occupied]
 
     def undone(self) -> tuple[Place, ...]:
         """Return the places of the remaining visits."""
@@ -169,6 +178,8 @@ class ForEachVisits:
         """
         place = self.place
         assert place is not None  # noqa: S101  a visit is current
+        if isinstance(fault, OccupiedFault):
+            self._occupied.add(place.key)
         if self.node.optional:
             self._give_up([place], fault.what)
         elif not self.is_last_resort and cut_off_places(self.mission, [place])[0]:

@@ -7,10 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator, Mapping
 
-from fieldhand.errors import ActionFault, BlockedFault, DriveFault, LostFault
+from fieldhand.errors import ActionFault, BlockedFault, DriveFault, LostFault, OccupiedFault
 from fieldhand.execution.active_mission import ActiveMission
 from fieldhand.execution.docking import ChargeFirst, leave_charger
-from fieldhand.execution.obstacles import avoid, wait_for_way
+from fieldhand.execution.navigation_waits import Interruptions, wait_for_robot
+from fieldhand.execution.obstacles import avoid, avoid_stand, wait_for_way
 from fieldhand.execution.waiting import wait, wait_for_position
 from fieldhand.language import joined, message
 from fieldhand.language.words import say_place
@@ -32,7 +33,8 @@ def drive(
     """Drive to a place, which becomes the current place. A robot that has stopped there already stays.
 
     A failed drive is retried from where the robot stands, up to the profile's ``retries``. Obstacles are driven around,
-    and a lost position is waited for; neither counts as a retry.
+    and a lost position and a navigation that was restarted are waited for; none of these counts as a retry. While
+    another client drives the robot, the mission pauses.
 
     Args:
         mission: The mission.
@@ -43,6 +45,7 @@ def drive(
 
     Raises:
         BlockedFault: No way is left. The robot stands where it stopped.
+        OccupiedFault: No way is left, as something stands where the robot would stand.
         LostFault: The position is unknown.
         DriveFault: All tries failed, or there never was a way. The robot stands where it stopped.
         ChargeFirst: The battery has to be charged first; the drive was broken off.
@@ -55,16 +58,17 @@ def drive(
         mission.emit_arrived(node, mission.standing, 0.0)
         return
     yield from leave_charger(mission)
-    tries, stops, waited, obstacle = mission.robot.retries + 1, 0, not patient, ""
+    tries, stops, waited, obstacle, occupied = mission.robot.retries + 1, 0, not patient, "", False
+    interruptions = Interruptions(mission, node)
     while True:
-        yield from wait_for_position(mission, node)
+        yield from wait_for_robot(mission, node)
         try:
             mission.start_drive(node, place)
         except DriveFault as fault:
             if not mission.blockages.stretches:
                 raise
             if waited or stops > MOST_STOPS:
-                raise BlockedFault(_unreached(place, obstacle or fault.what)) from None
+                raise _unreached(place, obstacle or fault.what, occupied=occupied) from None
             waited = True
             yield from wait_for_way(mission, node, place)
             continue
@@ -83,10 +87,17 @@ def drive(
         what = message("drive to {place}: {what}", context="log", place=_named(place), what=why)
         if progress.state == "cancelled":
             raise DriveFault(what)
-        stops += progress.fault in ("blocked", "lost")
-        if progress.fault == "blocked":
+        if progress.fault == "interrupted":
+            yield from interruptions.note(progress, what)
+            continue
+        stops += progress.fault in ("blocked", "occupied", "lost")
+        if progress.fault in ("blocked", "occupied"):
             obstacle = progress.what
-            avoid(mission, node, place, obstacle)
+            if progress.fault == "occupied":
+                occupied = True
+                avoid_stand(mission, node, place, obstacle)
+            else:
+                avoid(mission, node, place, obstacle)
             if stops > MOST_STOPS:
                 times = message("stopped {count} times on the way there", context="log", count=stops)
                 raise BlockedFault(joined("; ", (what, times)))
@@ -188,5 +199,8 @@ def _named(place: Place) -> str:
     return say_place(place.kind, place.id, place.side)
 
 
-def _unreached(place: Place, why: str) -> str:
-    return message("{place} cannot be reached: {why}", context="log", place=_named(place), why=why)
+def _unreached(place: Place, why: str, *, occupied: bool) -> BlockedFault:
+    if not occupied:
+        return BlockedFault(message("{place} cannot be reached: {why}", context="log", place=_named(place), why=why))
+    what = message("something stands where the robot would stand at {place}", context="log", place=_named(place))
+    return OccupiedFault(joined("; ", (what, why)))

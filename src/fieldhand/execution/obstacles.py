@@ -6,7 +6,7 @@ order of visits. Only if no other way is left, the robot waits and then tries a 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from shapely.geometry import LineString, Point
@@ -25,14 +25,25 @@ _AHEAD_M = 0.5
 
 def avoid(mission: ActiveMission, node: str, place: Place, what: str) -> None:
     """Record the obstacle before the robot, which was stopped on the way to a place, and what it closes off."""
-    trees = [tree.place for tree in mission.site.trees]
-    before = mission.drives.reachable(trees, mission.standing)
     position, path = mission.observation.position, LineString(mission.driven)
     along = path.project(Point(position.xy))
     ahead = path.interpolate(min(path.length, along + _AHEAD_M))
     if ahead.distance(Point(position.xy)) <= 0.0:
         ahead = Point(mission.driven[-1])
-    mission.blockages.add_ahead(position.xy, (ahead.x, ahead.y))
+    _close(mission, node, place, what, lambda: mission.blockages.add_ahead(position.xy, (ahead.x, ahead.y)))
+
+
+def avoid_stand(mission: ActiveMission, node: str, place: Place, what: str) -> None:
+    """Record an obstacle where the robot would stand at the end of its last drive, near which it was stopped."""
+    stand, position = mission.driven[-1], mission.observation.position
+    _close(mission, node, place, what, lambda: mission.blockages.add_stand(stand, position.xy))
+
+
+def _close(mission: ActiveMission, node: str, place: Place, what: str, add: Callable[[], object]) -> None:
+    """Record an obstacle and the trees that it closes off."""
+    trees = [tree.place for tree in mission.site.trees]
+    before = mission.drives.reachable(trees, mission.standing)
+    add()
     mission.guard.update_drives(mission.drives)
     after = mission.drives.reachable(trees, mission.standing)
     closed = [tree.id for tree, was, is_ in zip(trees, before, after, strict=True) if was and not is_]

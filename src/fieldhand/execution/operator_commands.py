@@ -32,7 +32,8 @@ AGENT_COMMANDS: tuple[AgentCommand, ...] = (*get_args(MissionCommand), "cancel")
 
 #: Commands that may follow each command.
 _AFTER: dict[str, frozenset[str]] = {
-    "": frozenset({"pause", "return", "abort"}),
+    # The mission may pause by itself, while another client drives the robot.
+    "": frozenset({"pause", "continue", "return", "abort"}),
     "pause": frozenset({"pause", "continue", "return", "abort"}),
     "continue": frozenset({"pause", "continue", "return", "abort"}),
     "return": frozenset({"return", "abort"}),

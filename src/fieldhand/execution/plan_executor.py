@@ -6,11 +6,12 @@ from collections.abc import Generator, Mapping
 from dataclasses import replace
 from typing import Any
 
-from fieldhand.errors import BlockedFault, DriveFault, FieldhandError, OutputError, PlaceError
+from fieldhand.errors import BlockedFault, DriveFault, FieldhandError, OccupiedFault, OutputError, PlaceError
 from fieldhand.execution.active_mission import ActiveMission, Ending
 from fieldhand.execution.docking import ChargeFirst
 from fieldhand.execution.for_each_visits import ForEachVisits, OptionalStepVisit
 from fieldhand.execution.goals import capture, drive
+from fieldhand.execution.leaving_out import can_leave_out
 from fieldhand.execution.obstacles import wait_for_way
 from fieldhand.execution.recharging import charge_and_return, charge_as_planned
 from fieldhand.execution.shed_work import (
@@ -34,7 +35,7 @@ from fieldhand.places.selector import Selector
 from fieldhand.site.model import Place
 from fieldhand.task import instructions
 from fieldhand.task.conditions import Condition
-from fieldhand.task.nodes.base import Failed, GivenUp, Stopped
+from fieldhand.task.nodes.base import Cut, Failed, GivenUp, Stopped
 from fieldhand.task.plan import Act, AnyOrder, Node, OptionalStep, WorkAlong
 from fieldhand.task.results import Decided, MissionStatus
 from fieldhand.task.run import StackFrame, Steps, carry_out_in_steps
@@ -95,7 +96,7 @@ class PlanExecutor:
         except FieldhandError as error:
             raise self._failure(request, error) from error
 
-    def _failure(self, request: instructions.Instruction, error: FieldhandError) -> Failed | GivenUp:
+    def _failure(self, request: instructions.Instruction, error: FieldhandError) -> Failed | GivenUp | Cut:
         """Record a failure, and return the exception to raise in the plan."""
         at_work = isinstance(request, instructions.Locate | instructions.DriveTo | instructions.Capture)
         if isinstance(error, BlockedFault) and at_work:
@@ -104,6 +105,11 @@ class PlanExecutor:
                 return GivenUp(request.node.id)
             if optional := shed_unreachable(self.mission, error.what):
                 return GivenUp(optional)
+            at = self.place
+            if isinstance(error, OccupiedFault) and at is not None and can_leave_out(self.mission.run):
+                never = VisitChoice(index=None, reason=error.what, cause="unreachable")
+                report_shed(self.mission, request.node.id, [at], never, optional=False)
+                return Cut(request.node.id)
         self.mission.fail(request.node.id, error, handled=self.mission.run.is_caught)
         return Failed(request.node.id)
 

@@ -23,7 +23,15 @@ from typing import TYPE_CHECKING, TypeVar
 
 from fieldhand.clock import WallClock
 from fieldhand.errors import FieldhandError, JournalError
-from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Driver, EventSource, Position, Progress
+from fieldhand.execution.drivers.protocol import (
+    ActionGoal,
+    DriveGoal,
+    Driver,
+    EventSource,
+    Position,
+    Progress,
+    SharedNavigation,
+)
 from fieldhand.execution.guard import Failsafe, Guard
 from fieldhand.execution.journal.records import (
     InputLog,
@@ -343,6 +351,7 @@ class RecordedInputs:
         progress = self._driver.poll()
         if self._goal_cut_off:
             progress = self._cut_off(progress)
+        shared = self._driver if isinstance(self._driver, SharedNavigation) else None
         observation = Observation(
             t=t,
             position=self._driver.position(),
@@ -354,6 +363,8 @@ class RecordedInputs:
             next_in=self._driver.next_event_in(),
             order=self._current_command(),
             events=self._events(),
+            away=shared.away() if shared is not None else None,
+            taken=shared.taken() if shared is not None else None,
         )
         goal, changed = self._goal, observation.order != self._last_command
         self._last_command = observation.order

@@ -14,9 +14,10 @@ from fieldhand.errors import ActionFault, BlockedFault, DriveFault, LostFault
 from fieldhand.execution.active_mission import ActiveMission
 from fieldhand.execution.docking import ChargeFirst
 from fieldhand.execution.goals import MOST_STOPS, drive
+from fieldhand.execution.navigation_waits import Interruptions, wait_for_robot
 from fieldhand.execution.obstacles import avoid
 from fieldhand.execution.stretch_visits import StretchVisits
-from fieldhand.execution.waiting import wait, wait_for_position
+from fieldhand.execution.waiting import wait
 from fieldhand.forecast.working import begin_of, end_of
 from fieldhand.language import joined, message
 from fieldhand.site.model import Place
@@ -48,8 +49,9 @@ def work(mission: ActiveMission, node: WorkAlong, tour: StretchVisits) -> Steps:
     whole, rest = stretch.name, stretch
     failed, stops, attempt = 0, 0, 0
     missed_m, why = 0.0, ""
+    interruptions = Interruptions(mission, node.id)
     while True:
-        yield from wait_for_position(mission, node.id)
+        yield from wait_for_robot(mission, node.id)
         attempt += 1
         mission.start_stretch(node, rest, attempt)
         broken_off = False
@@ -73,10 +75,15 @@ def work(mission: ActiveMission, node: WorkAlong, tour: StretchVisits) -> Steps:
             if missed_m > NOTHING_M:
                 tour.miss(begin_of(stretch, mission.site), why)
             raise ChargeFirst(mission.recharge_due, mission.charge_target)
-        stops += progress.fault in ("blocked", "lost")
+        if progress.fault == "interrupted":
+            drive_along = message("drive along {stretch}: {what}", context="log", stretch=whole, what=what)
+            yield from interruptions.note(progress, drive_along)
+            rest = left
+            continue
+        stops += progress.fault in ("blocked", "occupied", "lost")
         if stops > MOST_STOPS:
             raise _stopped_too_often(whole, progress.fault, stops)
-        if progress.fault == "blocked":
+        if progress.fault in ("blocked", "occupied"):
             avoid(mission, node.id, end_of(rest, mission.site), what)
             rest_on_m = left.on_m
             beyond = yield from _beyond(mission, node, tour, left)

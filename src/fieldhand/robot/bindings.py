@@ -27,6 +27,9 @@ NavigationType = Literal[
 #: Action type for a path on which an implement works: waypoints to drive through, or the path itself.
 WorkingType = Literal["nav2_msgs/action/NavigateThroughPoses", "nav2_msgs/action/FollowPath"]
 
+#: Nodes of Nav2 without which nothing drives.
+NAVIGATION_NODES = ("bt_navigator", "controller_server", "planner_server")
+
 #: Meaning of a navigation failure code for a mission: a fault kind of ``execution/drivers/protocol.py``.
 NavigationFault = Literal["failed", "blocked", "lost"]
 
@@ -179,7 +182,8 @@ class NavigationBinding:
         speed_limit: Topic of Nav2's speed limit (``nav2_msgs/msg/SpeedLimit``); if empty, a drive below the robot's
             speed fails.
         codes: Meanings of failure codes, in addition to the known ones.
-        without_code: Meaning of a failure without a code; Humble sends none.
+        without_code: Meaning of a failure without a code; None for ``blocked`` in Humble, which sends none, and later
+            an interruption that is no failure of the drive.
         accept_s: Maximum time until a goal is accepted or rejected, in seconds.
         quiet_s: Seconds without feedback after which navigation counts as lost.
         slower: Maximum duration of a drive, as a multiple of its length divided by its speed, plus ``extra_s``.
@@ -187,6 +191,10 @@ class NavigationBinding:
         working: Action type for the paths of implements; empty to use ``type``.
         working_action: Name of that action.
         controller: Controller that follows these paths; empty for Nav2's default.
+        nodes: Lifecycle nodes of the navigation, which must be active; one that does not exist is not asked.
+        follow_path: Action of Nav2's controller, which may drive on when the navigator is gone; empty for none.
+        stuck_s: Seconds without coming nearer to the goal after which a drive counts as blocked.
+        most_recoveries: Recoveries without coming nearer after which it does, too.
     """
 
     action: str
@@ -198,7 +206,7 @@ class NavigationBinding:
     behavior_tree: str = ""
     speed_limit: str = ""
     codes: Mapping[int, NavigationFault] = field(default_factory=dict)
-    without_code: NavigationFault = "blocked"
+    without_code: NavigationFault | None = None
     accept_s: float = 5.0
     quiet_s: float = 15.0
     slower: float = 5.0
@@ -206,6 +214,10 @@ class NavigationBinding:
     working: WorkingType | Literal[""] = ""
     working_action: str = ""
     controller: str = ""
+    nodes: tuple[str, ...] = NAVIGATION_NODES
+    follow_path: str = "follow_path"
+    stuck_s: float = 60.0
+    most_recoveries: int = 6
 
 
 @dataclass(frozen=True, kw_only=True)

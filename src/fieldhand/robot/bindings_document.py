@@ -13,7 +13,14 @@ from typing import Annotated, Literal, get_args
 
 from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, model_validator
 
-from fieldhand.robot.bindings import Distro, NavigationFault, NavigationType, RequestValue, WorkingType
+from fieldhand.robot.bindings import (
+    NAVIGATION_NODES,
+    Distro,
+    NavigationFault,
+    NavigationType,
+    RequestValue,
+    WorkingType,
+)
 from fieldhand.robot.fields import IdentifierField, Keyed, NumberField, Positive, UnitField, no_bool
 
 #: Maximum length of a name; ROS requires shorter ones.
@@ -256,7 +263,7 @@ class NavigationDocument(Keyed):
     behavior_tree: Annotated[str, Field(max_length=1000)] = ""
     speed_limit: RosName | None = None
     codes: Annotated[dict[Code, NavigationFault], Field(max_length=100)] = Field(default_factory=dict)
-    without_code: NavigationFault = "blocked"
+    without_code: NavigationFault | None = None
     accept_s: TimeLimitField = 5.0
     quiet_s: TimeLimitField = 15.0
     slower: Annotated[NumberField, Field(ge=1, le=100)] = 5.0
@@ -264,6 +271,10 @@ class NavigationDocument(Keyed):
     working: Annotated[WorkingType, BeforeValidator(_navigation)] | None = None
     working_action: RosName | None = None
     controller: Annotated[str, Field(max_length=100)] = ""
+    nodes: Annotated[tuple[RosName, ...], Field(max_length=20)] = NAVIGATION_NODES
+    follow_path: RosName | Literal[""] = "follow_path"
+    stuck_s: TimeLimitField = 60.0
+    most_recoveries: Annotated[int, BeforeValidator(no_bool), Field(ge=1, le=1000)] = 6
 
     @model_validator(mode="after")
     def _one_map(self) -> NavigationDocument:

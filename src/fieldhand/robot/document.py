@@ -238,6 +238,8 @@ class PatienceDocument(Keyed):
     retry_wait_s: Wait = 0.0
     blocked_wait_s: Wait = 60.0
     lost_wait_s: Wait = 60.0
+    navigation_wait_s: Wait = 60.0
+    taken_wait_s: Wait = 300.0
     event_wait_s: Annotated[NumberField, Field(ge=1, le=86_400)] = 3600.0
 
 

@@ -118,12 +118,16 @@ class Patience:
         retry_wait_s: Seconds before a failed drive or action is retried.
         blocked_wait_s: Seconds to wait for an obstacle in the only way to a place.
         lost_wait_s: Seconds to wait for the position to return.
+        navigation_wait_s: Seconds to wait for a navigation that was restarted to be active again.
+        taken_wait_s: Seconds to leave the robot to another client of its navigation.
         event_wait_s: Seconds to wait for an event to be over where the Task sets no maximum.
     """
 
     retry_wait_s: float = 0.0
     blocked_wait_s: float = 60.0
     lost_wait_s: float = 60.0
+    navigation_wait_s: float = 60.0
+    taken_wait_s: float = 300.0
     event_wait_s: float = 3600.0
 
 

@@ -31,6 +31,9 @@ _LONG_M = 1.0
 #: Distance in metres between a blocked area and the rows beside it, so that it contains no trees.
 _BEFORE_ROW_M = 0.05
 
+#: Half the width in metres of a blocked area where a robot would have stood.
+_STAND_M = 0.5
+
 #: Least distance in metres from a robot to a blocked area.
 _BESIDE_M = 1e-3
 
@@ -72,6 +75,23 @@ class Blockages:
         stretch = _blocked_ahead(self._all.layout, at, towards, half_width_m)
         self.replace((*self.stretches, stretch))
         return stretch
+
+    def add_stand(self, stand: XY, at: XY) -> Polygon:
+        """Add a blocked area where a robot would have stood; what it leaves free of an aisle can be driven.
+
+        Args:
+            stand: Where the robot would have stood.
+            at: Position of the robot, which stays free.
+
+        Returns:
+            The area that is treated as blocked from now on.
+        """
+        x, y = stand
+        away_m = max(abs(at[0] - x), abs(at[1] - y))
+        half_m = max(_BESIDE_M, min(_STAND_M, max(away_m - _AHEAD_M, away_m / 2.0)))
+        square = shapely.box(x - half_m, y - half_m, x + half_m, y + half_m)
+        self.replace((*self.stretches, square))
+        return square
 
     def replace(self, stretches: Sequence[Polygon]) -> None:
         """Replace all blocked areas."""

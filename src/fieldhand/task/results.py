@@ -240,7 +240,9 @@ class Resumed:
 
 @dataclass(frozen=True, kw_only=True)
 class Paused:
-    """An operator paused the mission; the robot stops once the current capture is made."""
+    """The mission is paused, by an operator (the robot stops once the current capture is made) or because another
+    client drives the robot.
+    """
 
     event: ClassVar[str] = "paused"
     t: float
@@ -351,15 +353,16 @@ class Dwelt:
 
 @dataclass(frozen=True, kw_only=True)
 class Waited:
-    """The robot waited for a problem to resolve itself: a blocked way, a lost position, or an event that it watches.
+    """The robot waited for a problem to resolve itself: a blocked way, a lost position, an event that it watches, or a
+    navigation that was restarted.
 
-    ``over``: the position is known again, there is a way to try, or the event is over.
+    ``over``: the position is known again, there is a way to try, the event is over, or the navigation is active.
     """
 
     event: ClassVar[str] = "wait"
     t: float
     node: str
-    wanted: Literal["way", "position", "event"]
+    wanted: Literal["way", "position", "event", "navigation"]
     seconds: float
     over: bool
     what: str = ""

@@ -246,6 +246,10 @@ def _waited(event: Waited) -> str:
         if event.over:
             return message("waited {time} until it was over", time=time)
         return message("waited {time}, and it is not over", time=time)
+    if event.wanted == "navigation":
+        if event.over:
+            return message("waited {time} for the robot's navigation: it is ready", time=time)
+        return message("waited {time} for the robot's navigation without success", time=time)
     if event.wanted == "way":
         return message("waited {time} for a way to become free", time=time)
     if event.over:

@@ -29,16 +29,21 @@ GoalState = Literal["idle", "running", "succeeded", "failed", "cancelled", "cut_
 #: Kind of fault of a failed goal; ``none`` otherwise.
 #:
 #: * ``blocked``: an obstacle that the robot's own avoidance could not pass; the robot stands before it.
+#: * ``occupied``: an obstacle where the robot would stand at the end of the drive; the robot stands near it.
+#: * ``interrupted``: the robot's navigation ended the drive for no reason of the drive itself: another client's goal
+#:   took its place, or its server was restarted (:class:`SharedNavigation`).
 #: * ``lost``: the position is unknown (:meth:`Driver.lost`) and the robot stands still. A goal started while it is lost
 #:   fails at once, and a running one ends, so a lost robot makes no capture.
 #: * ``empty``: the battery is empty.
 #: * ``implement``: the implement of a stretch failed; it is off, and the robot stands.
 #: * ``failed``: anything else.
-GoalFault = Literal["none", "failed", "blocked", "lost", "empty", "implement"]
+GoalFault = Literal["none", "failed", "blocked", "occupied", "interrupted", "lost", "empty", "implement"]
 
 
 #: Metres within which a robot counts as being at a point.
 AT_M = 0.5
+#: Metres from the end of a drive within which an obstacle counts as standing where the robot would stand.
+NEAR_M = 2.5
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -199,4 +204,17 @@ class EventSource(Protocol):
 
     def events(self) -> Mapping[str, float | None]:
         """Return the current value of each event: 1 or 0, or the value of a measured one; None if it is unknown."""
+        ...
+
+
+@runtime_checkable
+class SharedNavigation(Protocol):
+    """A driver whose navigation is a program of its own, which can be restarted and which others can use, too."""
+
+    def away(self) -> str | None:
+        """Return why no drive can begin now ("bt_navigator is inactive"), though one may later; None if one can."""
+        ...
+
+    def taken(self) -> str | None:
+        """Return who else drives the robot now, in words; None if nobody does."""
         ...

@@ -74,6 +74,7 @@ class Observation:
         wall: Time of day in seconds since 1970; None if there is none.
         next_in: Seconds until the driver is due; None if no goal is running.
         events: Value of each event that the mission watches; None for one that is unknown.
+        away, taken: As :class:`~fieldhand.execution.drivers.protocol.SharedNavigation`.
     """
 
     t: float
@@ -86,6 +87,8 @@ class Observation:
     order: OperatorCommand | None
     wall: float | None = None
     events: Mapping[str, float | None] = field(default_factory=dict)
+    away: str | None = None
+    taken: str | None = None
 
     def record(self) -> Record:
         """Return the record of the observation."""
@@ -103,6 +106,7 @@ class Observation:
         }
         if self.events:
             body["events"] = dict(self.events)
+        body |= {name: why for name, why in (("away", self.away), ("taken", self.taken)) if why is not None}
         return Record(kind="sight", body=json.dumps(body))
 
 
@@ -128,6 +132,8 @@ def observation_of(record: Record) -> Observation:
             next_in=body["next_in"],
             order=None if order is None else OperatorCommand(number=order[0], wanted=order[1], reason=order[2]),
             events=body.get("events", {}),
+            away=body.get("away"),
+            taken=body.get("taken"),
         )
     except (ValueError, KeyError, TypeError) as error:
         raise invalid_record(error) from None

@@ -6,7 +6,7 @@ the results, and returns when the node is done. Failures are thrown into it:
 * :class:`Failed`: an action, a drive or a place failed for good. The nearest enclosing ``Try`` continues with its
   otherwise; without one the plan has failed.
 * :class:`GivenUp`: a visit of a for-each, or an optional step, was abandoned. Execution continues after it.
-* :class:`Cut`: a log does not show how a node ended. Execution continues after that node.
+* :class:`Cut`: a node was left out, or a log does not show how it ended. Execution continues after that node.
 
 A ``StopMission`` raises :class:`Stopped`, which nothing catches: the plan is over.
 """

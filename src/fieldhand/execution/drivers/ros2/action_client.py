@@ -86,6 +86,9 @@ class ActionClient:
         self._result_requests: dict[int, bytes] = {}
         self._cancel_requests: dict[int, tuple[bytes, bool]] = {}
         self._abandoned: dict[bytes, float] = {}
+        self._own: set[bytes] = set()
+        #: True once a server has accepted a goal.
+        self.was_accepted = False
         self._cancel_all_requests: set[int] = set()
         self._stopping: set[bytes] = set()
         self._cancel_all_s, self._all_cancelled = -math.inf, False
@@ -135,6 +138,16 @@ class ActionClient:
             if self._outcome is not None:
                 self._stop_tracking(self._goal, now)
         return self._outcome
+
+    def others(self) -> int:
+        """Return the number of active goals that other clients have sent."""
+        return sum(status in BUSY for goal_id, status in self._statuses.items() if goal_id not in self._own)
+
+    def cancel_everything_again(self) -> None:
+        """Let :meth:`cancel_everything` send a new request."""
+        self._all_cancelled, self._cancel_all_s = False, -math.inf
+        self._stopping.clear()
+        self._statuses.clear()
 
     def cancel_everything(self) -> bool:
         """Cancel every goal of this action, whoever sent it; call repeatedly until it returns True.
@@ -186,6 +199,7 @@ class ActionClient:
         goal = self._goal
         if goal is not None and goal_id == goal.id and self._outcome is None:
             goal.accepted, goal.heard_s = True, now
+            self.was_accepted = True
             if feedback is not None:
                 inner = feedback.get("feedback")
                 self.feedback = inner if isinstance(inner, Mapping) else {}
@@ -251,11 +265,12 @@ class ActionClient:
         if goal.rejected:
             if goal.cancel_asked_s is not None:
                 return ActionOutcome(how="cancelled", what=goal.why)
-            return ActionOutcome(how="rejected", what=f"{self.name} rejected the goal")
+            return ActionOutcome(how="rejected", what=f"{self.name} rejected the goal", server="rejects")
         if goal.sent_s is None:
             return self._send_when_ready(goal, now)
         if self._is_gone(goal, now):
-            return ActionOutcome(how="untold", what=f"{self.name} is gone: nothing answers any more", moving=True)
+            what = f"{self.name} is gone: nothing answers any more"
+            return ActionOutcome(how="untold", what=what, moving=True, server="gone")
         if goal.cancel_asked_s is None:
             self._apply_limits(goal, goal.sent_s, now)
         if goal.cancel_asked_s is not None:
@@ -278,9 +293,10 @@ class ActionClient:
                 self._goal_requests[self._send.ask({"goal_id": {"uuid": goal.id}, "goal": goal.message})] = goal.id
             except Ros2Error as error:
                 return ActionOutcome(how="rejected", what=f"a goal of {self.name} does not fit its type: {error}")
+            self._own.add(goal.id)
             goal.sent_s = goal.heard_s = now
         elif now - goal.begun_s > self._accept_s:
-            return ActionOutcome(how="untold", what=f"nothing answers {self.name}")
+            return ActionOutcome(how="untold", what=f"nothing answers {self.name}", server="gone")
         return None
 
     def _is_gone(self, goal: GoalRecord, now: float) -> bool:
@@ -293,6 +309,7 @@ class ActionClient:
     def _apply_limits(self, goal: GoalRecord, sent_s: float, now: float) -> None:
         """Give up a goal that the server does not seem to be executing."""
         if goal.forgotten:
+            goal.restarted = True
             self.cancel(f"{self.name} no longer knows the goal: it was restarted")
         elif not goal.accepted and now - sent_s > self._accept_s:
             self.cancel(f"{self.name} did not accept or reject the goal within {self._accept_s:g} s")
@@ -324,7 +341,7 @@ class ActionClient:
     ) -> ActionOutcome | None:
         """Request cancellation until it is confirmed."""
         if goal.forgotten and goal.asked_cancel_s is not None:
-            return ActionOutcome(how="cancelled", what=goal.why)
+            return ActionOutcome(how="cancelled", what=goal.why, server="restarted" if goal.restarted else "")
         if now - cancel_asked_s > CANCEL_S:
             fault = "refuses to be cancelled" if goal.refused else "does not confirm that it was cancelled"
             begun = f"{goal.why}; then " if goal.why else ""
@@ -346,6 +363,8 @@ class ActionClient:
 
     def _stop_tracking(self, goal: GoalRecord, now: float) -> None:
         """Stop tracking the goal; if the robot may still be executing it, keep its id to cancel it later."""
+        if goal.restarted or self.servers() == 0:
+            self._statuses.clear()  # those of a server that is no more
         if goal.sent_s is not None and goal.ended is None:
             self._abandoned[goal.id] = now - CANCEL_AGAIN_S
 

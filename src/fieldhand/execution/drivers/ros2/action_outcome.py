@@ -22,6 +22,10 @@ CANCEL_REJECTED, CANCEL_UNKNOWN_GOAL, CANCEL_TERMINATED = 1, 2, 3
 #: How a goal ended. ``untold``: the server did not report it; see :attr:`ActionOutcome.what`.
 OutcomeKind = Literal["succeeded", "aborted", "cancelled", "rejected", "untold"]
 
+#: Condition of the server, as far as the end of a goal shows it: no server is visible, one that does not know the goal,
+#: or one that rejected it; empty if it shows nothing.
+ServerCondition = Literal["", "gone", "restarted", "rejects"]
+
 #: Final statuses.
 BY_STATUS: Mapping[int, OutcomeKind] = {SUCCEEDED: "succeeded", CANCELED: "cancelled", ABORTED: "aborted"}
 #: Statuses of a goal that is still active.
@@ -36,12 +40,14 @@ class ActionOutcome:
         result: Result message of the action; empty if there is none.
         what: Cause of a failure that the action itself does not report.
         moving: True if the robot did not confirm that it stopped executing the goal.
+        server: Condition of the server.
     """
 
     how: OutcomeKind
     result: RosMessage = field(default_factory=dict)
     what: str = ""
     moving: bool = False
+    server: ServerCondition = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,6 +70,7 @@ class GoalRecord:
         absent_s: Time since which no server is visible.
         cancel_asked_s: Time at which cancellation was requested; ``why`` is the reason.
         forgotten: True if the server no longer knows the goal.
+        restarted: True if that is why the goal was given up.
         ended: Final status, once known.
     """
 
@@ -82,6 +89,7 @@ class GoalRecord:
     why: str = ""
     refused: bool = False
     forgotten: bool = False
+    restarted: bool = False
     ended: int | None = None
     ended_s: float = 0.0
     result: RosMessage | None = None

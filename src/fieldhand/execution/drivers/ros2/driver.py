@@ -217,6 +217,12 @@ class Ros2Driver:
         self._events.listen()
         return self._events.values()
 
+    def away(self) -> str | None:
+        return self._navigation.away()
+
+    def taken(self) -> str | None:
+        return self._navigation.taken()
+
     def stopped(self) -> str | None:
         self._receive()
         return self._telemetry.stopped()

@@ -14,6 +14,7 @@ from fieldhand.execution.drivers.ros2.endpoint_problems import (
     topic_problem,
 )
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+from fieldhand.execution.drivers.ros2.node_states import state_problem
 from fieldhand.execution.drivers.ros2.plausibility import ImplausibleMessage, MessageCheck
 from fieldhand.execution.drivers.ros2.transport import (
     STATUS_QOS,
@@ -148,6 +149,47 @@ class ServiceCheck:
             why = EndpointProblem(what="it is there, but does not answer", advice="check whether its node is active")
         there = "answers" if self._answered else "there"
         return _of_call(self.binding, why, self._client.servers() > 0, there, rmw)
+
+
+@dataclass
+class LifecycleCheck:
+    """Check that a node is active.
+
+    Attributes:
+        found: True if the node has a lifecycle; one without needs no check.
+    """
+
+    binding: EndpointBinding
+    transport: Transport
+    interfaces: Interfaces
+
+    def __post_init__(self) -> None:
+        self._client = self.transport.client(self.binding.name, self.binding.type)
+        self._asked = False
+        self._state: RosMessage | None = None
+
+    @property
+    def found(self) -> bool:
+        return self._client.servers() > 0
+
+    def look(self) -> bool:
+        if self.found and not self._asked:
+            self._asked = True
+            self._client.ask({})
+        for _, reply in self._client.replies():
+            self._state = reply
+        return self._state is not None or not self.found
+
+    def report(self) -> EndpointReport:
+        rmw = _rmw_of(self.transport.servers_of(self.binding.name))
+        node = self.binding.name.removesuffix("/get_state")
+        if self._state is None:
+            why = service_problem(self.transport, self.interfaces, self.binding.name, self.binding.type)
+            found = (why.what, why.advice) if why is not None else ("it does not answer", "check whether it hangs")
+            return EndpointReport(binding=self.binding, usable=False, what=found[0], advice=found[1], rmw=rmw)
+        if (problem := state_problem(node, self._state)) is not None:
+            return EndpointReport(binding=self.binding, usable=False, what=problem[0], advice=problem[1], rmw=rmw)
+        return EndpointReport(binding=self.binding, usable=True, what="active", rmw=rmw)
 
 
 @dataclass

@@ -85,3 +85,5 @@ CODES: Mapping[int, tuple[str, NavigationFault]] = {
 
 #: Only reports that a waypoint was missed; the code of the waypoint gives the cause.
 MISSED_WAYPOINT = 603
+#: The goal itself lies in an obstacle.
+OCCUPIED_GOAL = (206, 306)

@@ -10,15 +10,18 @@ robot's own position is compared with the target.
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
 import math
-from collections.abc import Callable, Generator, Mapping, Sequence
+from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
 
 from fieldhand.errors import Ros2Error
-from fieldhand.execution.drivers.protocol import DriveGoal, Position
-from fieldhand.execution.drivers.ros2.action_client import ActionClient
+from fieldhand.execution.drivers.protocol import NEAR_M, DriveGoal, Position
+from fieldhand.execution.drivers.ros2.action_client import CANCEL_S, ActionClient
 from fieldhand.execution.drivers.ros2.action_outcome import ActionOutcome, GoalEnd
+from fieldhand.execution.drivers.ros2.drive_end import end_of, ended_without_code
+from fieldhand.execution.drivers.ros2.headway import Headway
 from fieldhand.execution.drivers.ros2.map_frame import (
     Point,
     degrees_to_map,
@@ -29,12 +32,13 @@ from fieldhand.execution.drivers.ros2.map_frame import (
     yaw_of,
 )
 from fieldhand.execution.drivers.ros2.message_fields import number_at, seconds_at, value_at
-from fieldhand.execution.drivers.ros2.nav2_codes import CODES, MISSED_WAYPOINT
+from fieldhand.execution.drivers.ros2.node_states import NodeStates
 from fieldhand.execution.drivers.ros2.service_call import TimeLimit
 from fieldhand.execution.drivers.ros2.transport import Client, Publisher, RosMessage, Transport
-from fieldhand.robot.bindings import FieldBinding, NavigationBinding, NavigationFault, Ros2Bindings
+from fieldhand.robot.bindings import FieldBinding, Ros2Bindings
 
 FROM_LL, SPEED_LIMIT = "robot_localization/srv/FromLL", "nav2_msgs/msg/SpeedLimit"
+FOLLOW_PATH = "nav2_msgs/action/FollowPath"
 
 #: Seconds after the end of a goal within which the position must come within tolerance: fixes lag behind.
 SETTLE_S = 3.0
@@ -42,6 +46,10 @@ SETTLE_S = 3.0
 ELSEWHERE_M = 5.0
 _FRAME, _STAMP = "current_pose.header.frame_id", "current_pose.header.stamp"
 _X, _Y = (FieldBinding(path=f"current_pose.pose.position.{axis}") for axis in "xy")
+#: Seconds within which the nodes of a navigation that seems to have been restarted are discovered and answer.
+DOUBT_S = 2.5
+#: Metres within which two ends without a code occurred at the same place; how many one goal of Nav2 has at most.
+_SAME_M, _MOST_UNEXPLAINED = 1.0, 4
 #: Metres between the points of a path that is followed.
 _PATH_STEP_M = 0.25
 #: Length in metres below which a leg has no direction.
@@ -115,6 +123,15 @@ class NavigationClient:
                 quiet_s=self.binding.quiet_s,
                 new_id=new_id,
             )
+        self.follow: ActionClient | None = None
+        if self.binding.follow_path:
+            name = bindings.whole_name(self.binding.follow_path)
+            own = (client for client in self.clients if (client.name, client.type) == (name, FOLLOW_PATH))
+            self.follow = next(own, None) or ActionClient(
+                transport, name, FOLLOW_PATH, steady=steady, accept_s=self.binding.accept_s, new_id=new_id
+            )
+        self.nodes = NodeStates(transport, bindings, steady=steady)
+        self._doubted_s: float | None = None
         self.from_ll_name = bindings.whole_name(self.binding.from_ll) if self.binding.from_ll else ""
         self.from_ll: Client | None = None
         self.speed_name = bindings.whole_name(self.binding.speed_limit) if self.binding.speed_limit else ""
@@ -132,6 +149,64 @@ class NavigationClient:
     def clients(self) -> tuple[ActionClient, ...]:
         """Return the clients of all actions that drive."""
         return (self.client,) if self.working is None else (self.client, self.working)
+
+    @property
+    def stopping(self) -> tuple[ActionClient, ...]:
+        """Return the clients of all actions that can move the robot: those that drive, and that of the controller."""
+        follows = self.follow is not None and self.follow not in self.clients and self.follow.servers() > 0
+        return (*self.clients, self.follow) if follows and self.follow is not None else self.clients
+
+    @property
+    def has_codes(self) -> bool:
+        """True if the robot's release gives a code with every failure."""
+        return self.distro != "humble"
+
+    # --- its servers ---------------------------------------------------------------------------------------------
+
+    def doubt(self) -> None:
+        """Note that navigation may have been restarted: :meth:`away` asks its nodes until all are active."""
+        if self._doubted_s is None:
+            self._doubted_s = self.steady()
+
+    def away(self) -> str | None:
+        """Return why no goal can be sent now, in words; None if one can, as far as is known."""
+        doubted_s = self._doubted_s
+        if doubted_s is None:
+            return None
+        self.nodes.look()
+        servers = self.client.servers()
+        if servers != 1:
+            self._doubted_s = self.steady()  # nothing that was answered before counts
+            return f"nothing answers {self.client.name}" if not servers else f"{servers} servers answer it"
+        if (problem := next(self.nodes.problems(doubted_s), None)) is not None:
+            return ": ".join(filter(None, problem))
+        if self.steady() - doubted_s < DOUBT_S and not self.nodes.all_active(doubted_s):
+            return f"{self.client.name} was restarted"
+        self._doubted_s = None
+        return None
+
+    def taken(self) -> str | None:
+        """Return who else drives the robot, in words; None if nobody does."""
+        if not self.client.others():
+            return None
+        return f"a goal of another client of {self.client.name} drives the robot, such as one clicked in RViz"
+
+    def stop_controller(self) -> Generator[None, None, bool | None]:
+        """Cancel every path that the controller follows: it drives on where the navigator has died.
+
+        Returns:
+            True once that is confirmed, False if it is not, and None if no controller is visible.
+        """
+        follow = self.follow
+        if follow is None or follow.servers() == 0:
+            return None
+        follow.cancel_everything_again()
+        until_s = self.steady() + CANCEL_S
+        while not follow.cancel_everything():
+            if self.steady() >= until_s:
+                return False
+            yield
+        return True
 
     def client_for(self, goal: DriveGoal) -> ActionClient:
         """Return the client of the action that carries out a drive."""
@@ -198,8 +273,9 @@ class NavigationClient:
 
     def close(self) -> None:
         """Close all endpoints without sending anything."""
-        for client in self.clients:
+        for client in (*self.clients, *(() if self.follow is None else (self.follow,))):
             client.close()
+        self.nodes.close()
         if self.speed is not None:
             self.speed.close()
         if self.from_ll is not None:
@@ -247,28 +323,115 @@ class RunningDrive:
                 plan: NavigationGoals = planned.value
                 break
             yield
-        for message, there in plan.goals:
-            ending = yield from self._drive(message, there, plan)
+        for number, (message, there) in enumerate(plan.goals):
+            if number and (why := self._navigation.taken()) is not None:
+                return GoalEnd(state="failed", fault="interrupted", what=why)
+            after_m = sum(math.dist(a, b) for (_, a), (_, b) in itertools.pairwise(plan.goals[number:]))
+            ending = yield from self._reach(message, there, plan, after_m)
             if ending.state != "succeeded":
                 return ending
         return GoalEnd(state="succeeded")
 
-    def _drive(self, message: RosMessage, there: Point, plan: NavigationGoals) -> GoalSteps:
-        """Carry out one goal of Nav2."""
-        client = self._navigation.client_for(self._goal)
+    def _reach(self, message: RosMessage, there: Point, plan: NavigationGoals, after_m: float) -> GoalSteps:
+        """Carry out one goal of Nav2, after which some metres of the drive are left.
+
+        Where a failure has no code, one counts as an obstacle only if it occurs twice at a place: Nav2 also fails where
+        its behavior tree timed out on the planner.
+        """
+        stopped_at: Position | None = None
+        for attempt in range(_MOST_UNEXPLAINED):
+            ending, unexplained = yield from self._drive(message, there, plan, after_m)
+            at = self._navigation.position()
+            twice = stopped_at is not None and at is not None and math.dist(at.xy, stopped_at.xy) <= _SAME_M
+            if not unexplained or ending.fault != "blocked" or twice or self._cancelled or self._limit.over:
+                break
+            if attempt < _MOST_UNEXPLAINED - 1 and (why := self._navigation.taken()) is not None:
+                return GoalEnd(state="failed", fault="interrupted", what=why)
+            stopped_at = at
+        return ending
+
+    def _drive(
+        self, message: RosMessage, there: Point, plan: NavigationGoals, after_m: float
+    ) -> Generator[None, None, tuple[GoalEnd, bool]]:
+        """Send one goal of Nav2; return how it ended, and True if that was a failure without a code."""
+        navigation, client = self._navigation, self._navigation.client_for(self._goal)
+        binding = navigation.binding
+        limit = TimeLimit(binding.stuck_s, navigation.clock, navigation.steady)
+        headway, nearest_m, stuck = Headway(limit, binding.most_recoveries), math.inf, ""
         client.start(message)
         while (outcome := client.step()) is None:
+            nearest_m = min(nearest_m, _distance_m(navigation.position(), there))
             if self._cancelled:
                 client.cancel()
-            elif self._limit.over:
-                client.cancel(f"the drive did not end within {self._limit.seconds:.0f} s")
+            elif not stuck and (why := headway.look(client.feedback)) is not None:
+                stuck = why
+                client.cancel(why)
+            elif not stuck and self._limit.over:
+                why = f"the drive did not end within {self._limit.seconds:.0f} s"
+                near = after_m + _left_m(headway, nearest_m) <= NEAR_M
+                stuck = why if headway.recoveries or near else ""
+                client.cancel(why)
             elif (why := self._wrong_place(plan)) is not None:
                 client.cancel(why)
             yield
-        ending = end_of(outcome, self._navigation.binding, cancelled=self._cancelled)
+        near = after_m + _left_m(headway, nearest_m) <= NEAR_M
+        if (outcome.server and not self._cancelled) or outcome.moving:
+            return (yield from self._without_server(outcome, client)), False
+        unexplained = ended_without_code(outcome) and not self._cancelled
+        if unexplained and (ending := (yield from self._interrupted())) is not None:
+            return ending, False
+        ending = end_of(outcome, binding, cancelled=self._cancelled, has_codes=navigation.has_codes, near=near)
+        if stuck and ending.state == "failed" and outcome.what == stuck:
+            ending = GoalEnd(state="failed", fault="occupied" if near else "blocked", what=stuck)
         if ending.state == "succeeded":
             ending = yield from self._arrive(there)
-        return ending
+        return ending, unexplained
+
+    def _without_server(self, outcome: ActionOutcome, client: ActionClient) -> GoalSteps:
+        """Return the end of a drive whose server rejects its goal, was restarted, or does not stop.
+
+        The controller may then follow its last path still, so it is stopped.
+        """
+        navigation = self._navigation
+        if outcome.server == "rejects":
+            yield from self._ask_nodes()
+            if (why := navigation.away()) is not None:
+                return GoalEnd(state="failed", fault="interrupted", what=f"{outcome.what}: {why}")
+            ending = end_of(outcome, navigation.binding, cancelled=False, has_codes=navigation.has_codes)
+            return dataclasses.replace(ending, fault="interrupted") if client.was_accepted else ending
+        navigation.doubt()
+        stopped = yield from navigation.stop_controller()
+        what = outcome.what
+        if stopped and navigation.follow is not None:
+            outcome = dataclasses.replace(outcome, moving=False)
+            what = f"{what}; {navigation.follow.name} has confirmed that its controller follows no path any more"
+        if self._cancelled and not outcome.moving:
+            return GoalEnd(state="cancelled", what=what)
+        ending = end_of(outcome, navigation.binding, cancelled=False, has_codes=navigation.has_codes)
+        if stopped is False and navigation.follow is not None:
+            what = f"{navigation.follow.name} does not confirm that its controller stopped"
+            ending = dataclasses.replace(ending, what=f"{ending.what}; {what}")
+        elif stopped:
+            ending = dataclasses.replace(ending, what=what)
+        return dataclasses.replace(ending, fault="interrupted") if outcome.server and client.was_accepted else ending
+
+    def _interrupted(self) -> Generator[None, None, GoalEnd | None]:
+        """Return the end of a drive that Nav2 aborted without a code, if another client or a restart is the reason."""
+        if self._navigation.taken() is not None:
+            what = "a goal of another client took the place of this drive's, such as one clicked in RViz"
+            return GoalEnd(state="failed", fault="interrupted", what=what)
+        yield from self._ask_nodes()
+        if (why := self._navigation.away()) is None:
+            return None
+        return GoalEnd(state="failed", fault="interrupted", what=f"navigation ended the drive: {why}")
+
+    def _ask_nodes(self) -> Generator[None, None, None]:
+        """Wait until the nodes of the navigation have answered, or are known to be away."""
+        navigation = self._navigation
+        navigation.doubt()
+        until_s = navigation.steady() + DOUBT_S
+        while navigation.away() is not None and navigation.steady() < until_s and not self._cancelled:
+            yield
 
     def _wrong_place(self, plan: NavigationGoals) -> str | None:
         """Return why the robot's map position contradicts its fix: it would drive to the wrong place; None if they
@@ -319,60 +482,15 @@ class RunningDrive:
         return GoalEnd(state="succeeded")
 
 
+def _left_m(headway: Headway, nearest_m: float) -> float:
+    """Return how near a robot came to a goal: by the rest of its way, or if that is unknown in a straight line."""
+    return nearest_m if math.isinf(headway.least_m) else headway.least_m
+
+
 def _pose_on(frame: str, one: Point, two: Point, share: float) -> RosMessage:
     """Return a pose on a leg, facing along it."""
     x, y = one[0] + (two[0] - one[0]) * share, one[1] + (two[1] - one[1]) * share
     return pose(frame, (x - (two[0] - one[0]), y - (two[1] - one[1])), (x, y))
-
-
-def end_of(outcome: ActionOutcome, binding: NavigationBinding, *, cancelled: bool) -> GoalEnd:
-    """Return the end of a drive from the outcome of a Nav2 goal.
-
-    Args:
-        cancelled: True if cancellation was requested.
-    """
-    missed = outcome.result.get("missed_waypoints")
-    if outcome.how == "succeeded" and not (isinstance(missed, Sequence) and missed):
-        return GoalEnd(state="succeeded")
-    if outcome.moving:
-        advice = "check whether Nav2 runs on the robot; if it drives still, use its emergency stop"
-        return GoalEnd(state="failed", fault="failed", what=f"{outcome.what}; {advice}")
-    if cancelled and outcome.how != "succeeded":
-        return GoalEnd(state="cancelled")
-    if outcome.how in ("succeeded", "aborted"):
-        return _failed(outcome.result, binding)
-    what = outcome.what or "another client cancelled the drive"
-    advice = "; check whether Nav2 is active on the robot" if outcome.how in ("rejected", "untold") else ""
-    return GoalEnd(state="failed", fault="failed", what=f"{what}{advice}")
-
-
-def _failed(result: RosMessage, binding: NavigationBinding) -> GoalEnd:
-    """Return a failure described by the error code of Nav2, if it has one."""
-    code, words = _code(result), _message_of_nav2(result)
-    fault: NavigationFault
-    if code == 0 or (code == MISSED_WAYPOINT and code not in binding.codes):
-        meaning, fault = "navigation failed without an error code", binding.without_code
-        meaning = "navigation missed a waypoint" if result.get("missed_waypoints") else meaning
-    else:
-        meaning, fault = CODES.get(code, ("navigation failed", "failed"))
-        fault = binding.codes.get(code, fault)
-        meaning = f"{meaning} (code {code} of Nav2)"
-    return GoalEnd(state="failed", fault=fault, what=f"{meaning}: {words}" if words else meaning)
-
-
-def _code(result: RosMessage) -> int:
-    """Return the error code; that of the first missed waypoint is more specific than the overall code."""
-    missed = result.get("missed_waypoints")
-    for entry in missed if isinstance(missed, Sequence) else ():
-        if isinstance(entry, Mapping) and isinstance(code := entry.get("error_code"), int) and code:
-            return code
-    code = result.get("error_code")
-    return code if isinstance(code, int) else 0
-
-
-def _message_of_nav2(result: RosMessage) -> str:
-    text = result.get("error_msg")
-    return text.strip() if isinstance(text, str) else ""
 
 
 def _legs(path: Sequence[Point]) -> list[tuple[int, int]]:

@@ -17,6 +17,7 @@ from fieldhand.execution.drivers.ros2.endpoint_checks import (
     EndpointBinding,
     EndpointCheck,
     EndpointReport,
+    LifecycleCheck,
     ServiceCheck,
     SubscriberCheck,
     TopicCheck,
@@ -25,6 +26,7 @@ from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.interfaces.definitions import FLOATS, INTEGERS
 from fieldhand.execution.drivers.ros2.message_fields import message_of
 from fieldhand.execution.drivers.ros2.navigation import FROM_LL, SPEED_LIMIT
+from fieldhand.execution.drivers.ros2.node_states import GET_STATE
 from fieldhand.execution.drivers.ros2.plausibility import MessageCheck
 from fieldhand.execution.drivers.ros2.telemetry import fix_problem
 from fieldhand.execution.drivers.ros2.transport import QosProfile, Rmw, RosMessage, Transport
@@ -128,14 +130,29 @@ def check_live(
         ProfileError: The profile has no ROS 2 part.
     """
     tried = [_unfit(b) or b.make(transport) for b in _Bindings(profile, interfaces).all()]
-    checks = [t for t in tried if not isinstance(t, EndpointReport)]
+    nodes = _node_checks(bindings_of(profile), transport, interfaces)
+    checks = [*(t for t in tried if not isinstance(t, EndpointReport)), *nodes]
     begun = steady()
     while steady() < begun + within_s:
         seen = [check for check in checks if check.look()]
         if len(seen) == len(checks) and steady() > begun + _SETTLED_S:
             break
         sleep(_LOOK_S)
-    return ProfileReport(endpoints=tuple(t if isinstance(t, EndpointReport) else t.report() for t in tried))
+    reports = [t if isinstance(t, EndpointReport) else t.report() for t in tried]
+    return ProfileReport(endpoints=(*reports, *(check.report() for check in nodes if check.found)))
+
+
+def _node_checks(ros2: Ros2Bindings, transport: Transport, interfaces: Interfaces) -> list[LifecycleCheck]:
+    """Return a check of each node of the navigation that may have a lifecycle."""
+    names = ((node, ros2.whole_name(f"{node}/get_state")) for node in ros2.navigation.nodes)
+    return [
+        LifecycleCheck(
+            EndpointBinding(part=f"navigation: {node}", kind="service", name=name, type=GET_STATE),
+            transport,
+            interfaces,
+        )
+        for node, name in names
+    ]
 
 
 def _unfit(bound: _Bound) -> EndpointReport | None:

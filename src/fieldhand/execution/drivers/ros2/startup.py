@@ -62,6 +62,7 @@ class Startup:
         self._events = events
         self._implements = implements
         self._far, self._rest, self._steady = far, rest, steady
+        self._since_s = steady()
 
     def wait(self, within_s: float) -> None:
         """Wait until all parts are available.
@@ -69,7 +70,8 @@ class Startup:
         Raises:
             Ros2Error: Some part is missing after ``within_s``; the missing parts are named.
         """
-        until = self._steady() + within_s
+        self._since_s = self._steady()
+        until = self._since_s + within_s
         while missing := list(self._missing()):
             if self._steady() >= until:
                 raise Ros2Error(f"the robot is not ready after {within_s:g} s: {_summary(missing)}")
@@ -83,7 +85,7 @@ class Startup:
         Raises:
             Ros2Error: The goals do not end, or an implement does not switch off.
         """
-        clients = (*self._navigation.clients, *self._captures.actions)
+        clients = (*self._navigation.stopping, *self._captures.actions)
         until = self._steady() + CANCEL_S
         while busy := [client.name for client in clients if not client.cancel_everything()]:
             if self._steady() >= until:
@@ -119,6 +121,8 @@ class Startup:
         navigation = self._navigation
         for client in navigation.clients:
             yield from self._no_action("navigation", client)
+        navigation.nodes.look()
+        yield from navigation.nodes.problems(self._since_s)
         if navigation.from_ll is not None:
             yield from self._no_service("the map", navigation.from_ll, navigation.from_ll_name, FROM_LL)
         if navigation.speed is not None and navigation.speed.subscribers() == 0:

@@ -11,6 +11,7 @@ import numpy as np
 
 from fieldhand.clock import Clock
 from fieldhand.execution.drivers.protocol import (
+    NEAR_M,
     ActionGoal,
     DriveGoal,
     GoalFault,
@@ -150,6 +151,7 @@ class SimulatedDriver:
         self._loads: dict[str, float] = {}
         self._loaded_s, self._load_j = self._begun_s, 0.0
         self._docked = False
+        self._recovers = False
 
     @property
     def seed(self) -> int | None:
@@ -176,7 +178,8 @@ class SimulatedDriver:
             course = replace(whole.cut(part), what=what, fault="implement") if part <= course.reach else course
         met: list[tuple[Hindrance, GoalFault]] = []
         if (hindrance := self._truth.obstacle(goal.path_m, lambda metres: now_s + pace * metres)) is not None:
-            met.append((hindrance, "blocked"))
+            near = hindrance.recovers and goal.length_m - hindrance.at_m <= NEAR_M
+            met.append((hindrance, "occupied" if near else "blocked"))
         if (hindrance := self._truth.lost_on(goal.path_m)) is not None:
             met.append((hindrance, "lost"))
         if met:
@@ -255,6 +258,7 @@ class SimulatedDriver:
             return Progress(state="running", metres=done * course.metres, seconds=done * course.lasts_s)
         if course.meets is not None:
             self._truth.met(course.meets)
+            self._recovers = course.meets.recovers
             if course.fault == "lost":
                 self._lost.append((self._clock.now() - self._begun_s + course.meets.for_s, course.meets.what))
         return self._finish(course, course.outcome, 1.0, course.what, course.fault)
@@ -350,9 +354,19 @@ class SimulatedDriver:
         self._truth.restore(state.values_seed, state.captures, state.struck)
         self._truth.events.restore(state.met)
 
+    @property
+    def recovers(self) -> bool:
+        """True if the last drive ended before an obstacle at which the robot's navigation recovers for ever."""
+        return self._recovers
+
+    def tree_of(self, fault: int) -> Place:
+        """Return the tree that a fault of the world names."""
+        return self._truth.tree_of(fault)
+
     def _begin(self) -> None:
         if not self.poll().over:
             raise RuntimeError("a goal is running: a driver has one at a time")
+        self._recovers = False
         self._charge, self._charged_s = self._left(), self._clock.now()
         self._load_j, self._loaded_s = 0.0, self._clock.now()
 

@@ -58,12 +58,14 @@ class Hindrance:
 
     Attributes:
         for_s: Duration of a lost position in seconds.
+        recovers: The robot's navigation recovers for ever before it.
     """
 
     at_m: float
     number: int
     what: str
     for_s: float = 0.0
+    recovers: bool = False
 
 
 class GroundTruth:
@@ -169,7 +171,8 @@ class GroundTruth:
         if not found:
             return None
         at_m, number, what = min(found)
-        return Hindrance(at_m=at_m, number=number, what=what)
+        fault = self._faults[number]
+        return Hindrance(at_m=at_m, number=number, what=what, recovers=isinstance(fault, Blocked) and fault.recovers)
 
     def counts(self) -> tuple[tuple[tuple[str, str, int], ...], tuple[tuple[int, int], ...]]:
         """Return the counts so far: draws per quantity and place, and occurrences per fault."""
@@ -181,6 +184,10 @@ class GroundTruth:
         self.seed = seed
         self._captures = Counter({(quantity, place): times for quantity, place, times in captures})
         self._used = Counter(dict(struck))
+
+    def tree_of(self, number: int) -> Place:
+        """Return the tree that a fault of the world names."""
+        return self._trees[number]
 
     def met(self, hindrance: Hindrance) -> None:
         """Count a hindrance that the robot has met."""
@@ -288,6 +295,9 @@ class GroundTruth:
             one, two = (self._tree(reference, site, where) for reference in fault.between)
             self._between[number] = (one, two)
             self._middles[number] = ((one.x + two.x) / 2.0, (one.y + two.y) / 2.0)
+        if isinstance(fault, Blocked):
+            x, y = self._middles[number]
+            self._middles[number] = (x + fault.east_m, y + fault.north_m)
 
     def _script(self, world: World, site: Site) -> EventScript:
         middles: dict[int, Point] = {}

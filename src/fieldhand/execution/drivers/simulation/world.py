@@ -85,7 +85,10 @@ class Blocked:
 
     Attributes:
         at: Tree at which it stands; otherwise ``between``, two trees halfway between which it stands.
+        east_m, north_m: Metres from there to it.
         times: Number of legs it ends before it is gone (None: unlimited).
+        recovers: The robot's navigation recovers and tries again for ever; a simulation without one notices at once
+            that it comes no nearer.
         from_s, until_s: Interval in seconds of the mission (None: to the end).
     """
 
@@ -95,6 +98,50 @@ class Blocked:
     times: int | None = None
     from_s: float = 0.0
     until_s: float | None = None
+    recovers: bool = False
+    east_m: float = 0.0
+    north_m: float = 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class GoalClicked:
+    """Another client of a simulated robot over ROS 2 sends a goal to its navigation, as a click in RViz does.
+
+    Attributes:
+        at: Tree at which the goal lies.
+        after_m: Metres that the robot has driven before.
+    """
+
+    at: TreeRef
+    after_m: float = 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class GoalUnexplained:
+    """The navigation of a simulated robot over ROS 2 ends a goal, and gives no reason.
+
+    Attributes:
+        after_m: Metres that the robot has driven before.
+        times: Number of goals that it ends, each as soon as it begins but for the first.
+    """
+
+    after_m: float = 0.0
+    times: int = 1
+
+
+@dataclass(frozen=True, kw_only=True)
+class NavigatorDies:
+    """The navigator of a simulated robot over ROS 2 dies, while its controller follows the last path on.
+
+    Attributes:
+        after_m: Metres that the robot has driven before.
+        down_s: Seconds until it is there again, inactive (None: never).
+        inactive_s: Seconds after that until it is activated (None: only if somebody does so).
+    """
+
+    after_m: float = 0.0
+    down_s: float | None = 2.0
+    inactive_s: float | None = 5.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -151,6 +198,9 @@ WorldFault = (
     | DriveFails
     | RobotStrays
     | Blocked
+    | GoalClicked
+    | GoalUnexplained
+    | NavigatorDies
     | LocalisationLost
     | BatteryDrains
     | ClockJumps

@@ -13,7 +13,10 @@ from fieldhand.execution.drivers.simulation.world import (
     ClockJumps,
     DiskFull,
     DriveFails,
+    GoalClicked,
+    GoalUnexplained,
     LocalisationLost,
+    NavigatorDies,
     RobotStops,
     RobotStrays,
     SensorAbsurd,
@@ -25,6 +28,10 @@ from fieldhand.execution.drivers.simulation.world import (
 Second = Annotated[float, Field(ge=0, allow_inf_nan=False)]
 #: Larger than any site.
 FaultDistance = Annotated[float, Field(gt=0, le=100_000, allow_inf_nan=False)]
+#: Metres from a tree to something beside it.
+Offset = Annotated[float, Field(ge=-1000, le=1000, allow_inf_nan=False)]
+#: Metres that a robot has driven.
+Driven = Annotated[float, Field(ge=0, le=1_000_000, allow_inf_nan=False)]
 FaultCount = Annotated[StrictInt, Field(ge=1)] | None
 
 
@@ -129,6 +136,9 @@ class BlockedModel(Strict):
     times: FaultCount = None
     from_s: Second = 0.0
     until_s: Second | None = None
+    recovers: bool = False
+    east_m: Offset = 0.0
+    north_m: Offset = 0.0
 
     @model_validator(mode="after")
     def _somewhere(self) -> BlockedModel:
@@ -147,7 +157,47 @@ class BlockedModel(Strict):
             times=self.times,
             from_s=self.from_s,
             until_s=self.until_s,
+            recovers=self.recovers,
+            east_m=self.east_m,
+            north_m=self.north_m,
         )
+
+
+class GoalClickedModel(Strict):
+    """A goal of another client."""
+
+    fault: Literal["goal_clicked"]
+    at: TreeRefModel
+    after_m: Driven = 0.0
+
+    def to_fault(self) -> WorldFault:
+        """Return the fault for execution."""
+        return GoalClicked(at=self.at.reference(), after_m=self.after_m)
+
+
+class GoalUnexplainedModel(Strict):
+    """A goal that ends without a reason."""
+
+    fault: Literal["goal_unexplained"]
+    after_m: Driven = 0.0
+    times: Annotated[StrictInt, Field(ge=1)] = 1
+
+    def to_fault(self) -> WorldFault:
+        """Return the fault for execution."""
+        return GoalUnexplained(after_m=self.after_m, times=self.times)
+
+
+class NavigatorDiesModel(Strict):
+    """A navigator that dies."""
+
+    fault: Literal["navigator_dies"]
+    after_m: Driven = 0.0
+    down_s: Second | None = 2.0
+    inactive_s: Second | None = 5.0
+
+    def to_fault(self) -> WorldFault:
+        """Return the fault for execution."""
+        return NavigatorDies(after_m=self.after_m, down_s=self.down_s, inactive_s=self.inactive_s)
 
 
 class LocalisationLostModel(Strict):
@@ -226,6 +276,9 @@ AnyFault = (
     | DriveFailsModel
     | RobotStraysModel
     | BlockedModel
+    | GoalClickedModel
+    | GoalUnexplainedModel
+    | NavigatorDiesModel
     | LocalisationLostModel
     | BatteryDrainsModel
     | ClockJumpsModel

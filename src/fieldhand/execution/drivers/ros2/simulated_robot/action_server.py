@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import uuid
 from collections import OrderedDict
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -107,6 +108,20 @@ class ActionServer:
         self._feedback = transport.publish(f"{name}/_action/feedback", f"{type_name}_FeedbackMessage")
         self._status = transport.publish(f"{name}/_action/status", "action_msgs/msg/GoalStatusArray", STATUS_QOS)
         self._goals: OrderedDict[bytes, ServerGoal] = OrderedDict()
+
+    def adopt(self, message: RosMessage | None = None) -> ServerGoal:
+        """Add a goal that a program of the robot itself has sent; it is executing."""
+        goal = ServerGoal(
+            id=uuid.uuid4().bytes, goal_message=message or {}, since=self._stamp(), server=self, status=EXECUTING
+        )
+        self._goals[goal.id] = goal
+        self._publish()
+        return goal
+
+    def close(self) -> None:
+        """End the server; nobody is told of its goals any more."""
+        for end in (self._send, self._result, self._cancel, self._feedback, self._status):
+            end.close()
 
     def step(self) -> None:
         """Answer the requests received since the last call."""

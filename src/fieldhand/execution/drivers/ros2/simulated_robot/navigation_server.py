@@ -13,19 +13,22 @@ from fieldhand.execution.drivers.protocol import GoalFault, Progress
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.map_frame import degrees_to_map, map_to_degrees, orientation
 from fieldhand.execution.drivers.ros2.simulated_robot.action_server import ServerGoal
+from fieldhand.execution.drivers.ros2.simulated_robot.controller_server import ControllerServer
 from fieldhand.execution.drivers.ros2.simulated_robot.place_lookup import PlaceLookup
 from fieldhand.execution.drivers.ros2.simulated_robot.robot_platform import Point, SimulatedPlatform, length_m
 from fieldhand.execution.drivers.ros2.transport import RosMessage
 from fieldhand.robot.bindings import Datum, Ros2Bindings
-from fieldhand.site.model import Site
+from fieldhand.site.model import Place, Site
 
 #: Error codes of Nav2's controller, from Iron on: no progress; pose unknown; other failures.
-_CODES: Mapping[GoalFault, int] = {"blocked": 105, "lost": 102}
+_CODES: Mapping[GoalFault, int] = {"blocked": 105, "occupied": 105, "lost": 102}
 _OTHERWISE = 100
 #: Error code of Nav2's planner for a goal outside the map, and the extent of the simulated map in metres.
 _OUTSIDE, _REACH_M = 204, 20_000.0
 #: Seconds between feedback messages; tolerance of a quaternion's length; limit of poses in a goal.
 _FEEDBACK_S, _OFF, _MOST_POSES = 0.1, 0.1, 10_000
+#: Duration of a recovery in seconds.
+_RECOVERY_S = 8.0
 #: Distance in metres from a leg within which the robot is on it.
 _ON_M = 1e-3
 
@@ -43,6 +46,10 @@ class NavigationServer:
         stamped: Returns a header for a frame name.
         report: Called at the end of each goal with its result and progress.
         type_name: Action type; empty for that of navigation.
+        controller: Controller that follows the paths; None if the action is that of a controller itself.
+
+    Attributes:
+        active: False while its node is inactive, when it rejects all goals.
     """
 
     def __init__(
@@ -59,7 +66,12 @@ class NavigationServer:
         stamped: Callable[[str], RosMessage],
         report: Callable[[str, Progress], None],
         type_name: str = "",
+        controller: ControllerServer | None = None,
     ) -> None:
+        self.active = True
+        self._controller = controller
+        self._recovering_s: float | None = None
+        self._unexplained = 0
         self._binding, self._interfaces = bindings.navigation, interfaces
         self._type = type_name or bindings.navigation.type
         self._platform, self._site, self._places, self._datum = platform, site, places, datum
@@ -71,7 +83,43 @@ class NavigationServer:
         self._leg = 0
         self._begun_s = self._feedback_s = 0.0
 
+    @property
+    def driving(self) -> bool:
+        """True while it carries out a goal."""
+        return self._goal is not None and self._platform.driving
+
+    def goal_to(self, place: Place) -> RosMessage:
+        """Return a goal that leads to a place."""
+        ((x, y),) = degrees_to_map(self._datum, [(place.lat, place.lon)])
+        header: RosMessage = {"frame_id": self._binding.frame}
+        pose: RosMessage = {
+            "header": header,
+            "pose": {"position": {"x": x, "y": y, "z": 0.0}, "orientation": orientation(0.0)},
+        }
+        if self._type.endswith("/NavigateToPose"):
+            return {"pose": pose}
+        if self._type.endswith("/FollowGPSWaypoints"):
+            position = {"latitude": place.lat, "longitude": place.lon}
+            return {"gps_poses": ({"position": position, "orientation": orientation(0.0)},)}
+        return {"poses": (pose,)}
+
+    def abort_unexplained(self, times: int = 1) -> None:
+        """Abort the current goal without a reason, and the next ones as soon as they begin."""
+        self._unexplained = times - 1
+        goal, self._goal = self._goal, None
+        if goal is not None:
+            self._report("failed", self._stop_now())
+            goal.aborted({})
+
+    def die(self) -> None:
+        """Drop the current goal without a word; the controller follows the path on."""
+        self._goal = self._recovering_s = None
+        if self._controller is not None:
+            self._controller.leave()
+
     def rejection_reason(self, goal: RosMessage) -> str | None:
+        if not self.active:
+            return "the navigator is inactive"
         if self._platform.activity and not self._platform.driving:
             return f"the robot is {self._platform.activity}"
         try:
@@ -84,8 +132,10 @@ class NavigationServer:
         """Start driving. As in Nav2, a running goal is aborted, and its drive ends where the robot is."""
         if self._goal is not None:
             before, self._goal = self._goal, None
-            self._report("pre-empted", self._platform.stop_now())
+            self._report("pre-empted", self._stop_now())
             before.aborted({})
+        elif self._platform.driving:
+            self._stop_now()  # the path that a navigator left which has died
         corners = self._corners(goal.goal_message)
         here = self._platform.position
         self._goal, self._begun_s, self._feedback_s = goal, self._now(), -math.inf
@@ -94,12 +144,24 @@ class NavigationServer:
             return
         self._through, self._legs, self._leg = corners, tuple(pairwise((here.xy, *corners))), 0
         self._platform.drive(corners, self._places.nearest(corners[-1]), self._speed(), self._over)
+        if self._controller is not None:
+            self._controller.follow(self.abort_unexplained)
+        if self._unexplained:
+            self.abort_unexplained(self._unexplained)
+
+    def _stop_now(self) -> Progress:
+        """End the drive where the robot is."""
+        self._recovering_s = None
+        progress = self._platform.stop_now()
+        if self._controller is not None:
+            self._controller.done(succeeded=False)
+        return progress
 
     def cancel(self, goal: ServerGoal) -> None:
         if goal is not self._goal:
             return
         self._goal = None
-        self._report("cancelled", self._platform.stop_now())
+        self._report("cancelled", self._stop_now())
         goal.cancelled({})
 
     def step(self) -> None:
@@ -143,6 +205,11 @@ class NavigationServer:
         return map_to_degrees(self._datum, (x, y))
 
     def _over(self, progress: Progress) -> None:
+        if self._controller is not None:
+            self._controller.done(succeeded=progress.state == "succeeded")
+        if self._platform.recovers and self._goal is not None:
+            self._recovering_s = self._now()
+            return
         self._end(progress, _CODES.get(progress.fault, _OTHERWISE))
 
     def _end(self, progress: Progress, code: int) -> None:
@@ -194,11 +261,16 @@ class NavigationServer:
                 },
             },
             "navigation_time": _duration(now - self._begun_s),
+            "number_of_recoveries": self._recoveries(now),
             "distance_remaining": left_m,
         }
         if self._type.endswith("/NavigateThroughPoses"):
             feedback["number_of_poses_remaining"] = len(ahead)
         return feedback
+
+    def _recoveries(self, now: float) -> int:
+        """Return the number of recoveries: each succeeds, and the robot comes no nearer."""
+        return 0 if self._recovering_s is None else int((now - self._recovering_s) / _RECOVERY_S)
 
     def _index_ahead(self) -> int:
         """Return the index of the next corner: the end of the leg that the robot is on."""

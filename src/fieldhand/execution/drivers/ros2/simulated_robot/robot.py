@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -14,10 +14,14 @@ from fieldhand.errors import InputError
 from fieldhand.execution.drivers.protocol import Progress
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.map_frame import degrees_to_map
-from fieldhand.execution.drivers.ros2.simulated_robot.action_server import ActionServer
+from fieldhand.execution.drivers.ros2.navigation import FOLLOW_PATH
+from fieldhand.execution.drivers.ros2.simulated_robot.action_server import ActionServer, GoalHandler
 from fieldhand.execution.drivers.ros2.simulated_robot.capture_servers import CaptureCall, CaptureServer, capture_server
+from fieldhand.execution.drivers.ros2.simulated_robot.controller_server import ControllerServer
 from fieldhand.execution.drivers.ros2.simulated_robot.field_values import submessage
+from fieldhand.execution.drivers.ros2.simulated_robot.lifecycle_servers import LifecycleServer
 from fieldhand.execution.drivers.ros2.simulated_robot.navigation_server import NavigationServer
+from fieldhand.execution.drivers.ros2.simulated_robot.navigator import Navigator
 from fieldhand.execution.drivers.ros2.simulated_robot.place_lookup import PlaceLookup
 from fieldhand.execution.drivers.ros2.simulated_robot.robot_platform import SimulatedPlatform
 from fieldhand.execution.drivers.ros2.simulated_robot.sensor_topics import SensorTopics
@@ -27,7 +31,7 @@ from fieldhand.execution.drivers.ros2.simulated_robot.telemetry_topics import Te
 from fieldhand.execution.drivers.ros2.transport import QosProfile, RosMessage, Server, Transport
 from fieldhand.execution.drivers.simulation.driver import SimulatedDriver
 from fieldhand.execution.drivers.simulation.state import SimulationState
-from fieldhand.execution.drivers.simulation.world import World
+from fieldhand.execution.drivers.simulation.world import World, WorldFault
 from fieldhand.robot.bindings import Datum, Ros2Bindings
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
@@ -147,14 +151,8 @@ class SimulatedRobot:
         start = site.start
         self._datum = bindings.navigation.datum or Datum(lat=start.lat, lon=start.lon)
         self._nav: list[NavigationServer] = []
-        navigation = bindings.navigation
-        self._servers: list[CaptureServer | SwitchServer] = [
-            self._navigation(site, bindings, interfaces, transport, navigation.action, navigation.type)
-        ]
-        if navigation.working:
-            self._servers.append(
-                self._navigation(site, bindings, interfaces, transport, navigation.working_action, navigation.working)
-            )
+        self._servers: list[ActionServer | CaptureServer | SwitchServer | LifecycleServer | Navigator] = []
+        self._serve_navigation(site, bindings, interfaces, transport, world.faults)
         self._sensors = SensorTopics(
             transport,
             interfaces,
@@ -225,31 +223,70 @@ class SimulatedRobot:
         """Leave the ROS graph."""
         self._transport.close()
 
-    def _navigation(
+    def _serve_navigation(
         self,
         site: Site,
         bindings: Ros2Bindings,
         interfaces: Interfaces,
         transport: Transport,
-        action: str,
-        type_name: str,
-    ) -> ActionServer:
-        name = bindings.whole_name(action)
-        server = NavigationServer(
-            bindings,
-            interfaces,
-            self.platform,
-            site,
-            self._places,
-            self._datum,
-            speed=self._limit.m_s,
-            now=self._clock.now,
-            stamped=self._stamped,
-            report=lambda end, progress: self._report_goal(name, end, self._nearest(), progress),
-            type_name=type_name,
+        faults: Sequence[WorldFault],
+    ) -> None:
+        """Serve what Nav2 serves: the action that drives, the controller's, and the lifecycle of each node."""
+        navigation = bindings.navigation
+
+        def handler(action: str, type_name: str, controller: ControllerServer | None = None) -> NavigationServer:
+            server = NavigationServer(
+                bindings,
+                interfaces,
+                self.platform,
+                site,
+                self._places,
+                self._datum,
+                speed=self._limit.m_s,
+                now=self._clock.now,
+                stamped=self._stamped,
+                report=self._ended(bindings.whole_name(action)),
+                type_name=type_name,
+                controller=controller,
+            )
+            self._nav.append(server)
+            return server
+
+        def serve(action: str, type_name: str, handles: GoalHandler) -> ActionServer:
+            name = bindings.whole_name(action)
+            return ActionServer(transport, name, type_name, handles, stamp=self._stamp, refused=self._refused(name))
+
+        controller: ControllerServer | None = None
+        if navigation.follow_path:
+            action = navigation.follow_path
+            report = self._ended(bindings.whole_name(action))
+            controller = ControllerServer(self.platform, handler(action, FOLLOW_PATH), report)
+            controller.server = serve(action, FOLLOW_PATH, controller)
+            self._servers.append(controller.server)
+        if navigation.working and (navigation.working, navigation.working_action) != (
+            FOLLOW_PATH,
+            navigation.follow_path,
+        ):
+            works, works_by = navigation.working_action, navigation.working
+            self._servers.append(serve(works, works_by, handler(works, works_by)))
+        states = [LifecycleServer(transport, bindings.whole_name(node)) for node in navigation.nodes]
+        self._servers += states[1:]
+        action, kind = navigation.action, navigation.type
+        driving = handler(action, kind, controller)
+        self._servers.append(
+            Navigator(
+                driving,
+                lambda: serve(action, kind, driving),
+                states[0] if states else None,
+                faults,
+                tree_of=self.platform.tree_of,
+                metres=lambda: self.platform.metres,
+                now=self._clock.now,
+            )
         )
-        self._nav.append(server)
-        return ActionServer(transport, name, type_name, server, stamp=self._stamp, refused=self._refused(name))
+
+    def _ended(self, full_name: str) -> Callable[[str, Progress], None]:
+        return lambda end, progress: self._report_goal(full_name, end, self._nearest(), progress)
 
     def _measure(self, action: str) -> Mapping[str, float]:
         return self.platform.read_sensors(action, self._nearest())

@@ -78,6 +78,15 @@ class SimulatedPlatform:
         """True while it drives."""
         return self._activity == "driving"
 
+    @property
+    def recovers(self) -> bool:
+        """True if the last drive ended before an obstacle at which the robot's navigation recovers for ever."""
+        return self._driver.recovers
+
+    def tree_of(self, fault: int) -> Place:
+        """Return the tree that a fault of the world names."""
+        return self._driver.tree_of(fault)
+
     def state(self) -> SimulationState:
         """Return the state from which it can continue later."""
         return self._driver.state()
