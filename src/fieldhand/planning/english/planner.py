@@ -12,11 +12,12 @@ from fieldhand.planning.english.missing_blocks import missing_blocks
 from fieldhand.planning.english.tokens import Word, words_of
 from fieldhand.planning.english.wishes import Wish, early_wishes
 from fieldhand.planning.grammar.planned import NAME
-from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Refused
+from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Reason, Refused
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.codec_text import hidden_character
-from fieldhand.task.plan import Span
+from fieldhand.task.plan import Span, Wait, walk
+from fieldhand.task.timing import Schedule
 
 #: A request longer than this is no request. Nothing but reading it takes time, and that grows with its length.
 LONGEST_REQUEST = 8_000
@@ -115,6 +116,8 @@ class EnglishPlanner:
             return outcome
         if times.beside_any(outcome.task.command.no_part):  # "the crew arrives at 7 am" is told of the crew
             return None
+        if (odd := _longer_than_interval(outcome, request)) is not None:
+            return Refused(reasons=(odd,), planner=NAME)
         if asked is not None:
             choices = tuple(said for said, _ in asked.choices)
             return Clarify(question=asked.question, choices=choices, planner=NAME, free=True)
@@ -125,6 +128,28 @@ class EnglishPlanner:
         said = assumed if answered is None else (answered[1].sentence(), *assumed)
         stated = replace(command, assumptions=(*said, *command.assumptions))
         return replace(outcome, task=replace(outcome.task, command=stated))
+
+
+def _longer_than_interval(planned: Planned, request: str) -> Reason | None:
+    """Return the reason against runs so close that a wait in one lasts until the next; None otherwise.
+
+    "Stay for an hour and read CO2 every ten minutes" is one mission, not one of an hour every ten minutes.
+    """
+    schedule = planned.task.timing
+    if not isinstance(schedule, Schedule) or not schedule.every_min:
+        return None
+    waits = sum(node.seconds for node in walk(planned.task.composition.plan) if isinstance(node, Wait))
+    if waits < 60.0 * schedule.every_min:
+        return None
+    said = schedule.said[0] if schedule.said else (0, len(request))
+    return Reason(
+        what=message(
+            "'{said}': each run would wait until the next one is due", said=request[said[0] : said[1]].strip(" ,.")
+        ),
+        said=(said,),
+        advice=message("say 'read CO2 6 times, 10 minutes apart'"),
+        final=True,
+    )
 
 
 def _earlier(words: Sequence[Word], site: Site, robot: RobotProfile) -> frozenset[int]:

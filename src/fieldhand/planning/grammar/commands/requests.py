@@ -797,16 +797,19 @@ def request(said: Said) -> Said:
 
 
 @construction(
-    "closing: [COMMA] [AND] [then] [COMMA] CLOSING",
-    "closing: FULLSTOP [AND] [then] CLOSING",
+    "closing: mark=COMMA [AND] [then] [COMMA] CLOSING",
+    "closing: mark=AND [then] [COMMA] CLOSING",
+    "closing: [then] [COMMA] word=CLOSING",
+    "closing: mark=FULLSTOP [AND] [then] CLOSING",
     "closing: closing CLOSING",
     "closing: closing COMMA CLOSING",
     "closing: closing FULLSTOP CLOSING",
     cost=0.2,
 )
-def closing(used: int) -> StopCommand:
-    """Compose "and that's it", which says that nothing follows."""
-    return StopCommand(used)
+def closing(used: int, word: Lex | None = None, mark: Lex | None = None) -> StopCommand | None:
+    """Compose "and that's it", which says that nothing follows; "the gate end" is a place."""
+    del mark
+    return None if word is not None and "ends" in word.features else StopCommand(used)
 
 
 @construction(
