@@ -148,12 +148,11 @@ def _unknown(
     for k, word in enumerate(words):
         if k in known or word.kind == "stop":
             continue
-        if (code := _code_of_tree(words, k, site)) is not None:
-            yield code
-            continue
         block = k > 0 and words[k - 1].norm in ("block", "blocks")
         if k in rows or block:
             yield _no_such(word, site, block=block)
+        elif (code := _code_of_tree(words, k, site)) is not None:
+            yield code
         else:
             strange.append(k)
     lacked = list(lacked_actions(words, frozenset(strange), robot))

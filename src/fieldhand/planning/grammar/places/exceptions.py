@@ -11,9 +11,9 @@ from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.chosen import Chosen, chosen_among
 from fieldhand.planning.grammar.places.clauses import Clause, with_attribute
 from fieldhand.planning.grammar.places.compass import CORNERS
-from fieldhand.planning.grammar.places.counted import BOTH_ENDS, Span, rows_within
+from fieldhand.planning.grammar.places.counted import BOTH_ENDS, Span, row_itself, rows_within
 from fieldhand.planning.grammar.places.numbered import all_of, elsewhere, ids_of, numbered
-from fieldhand.planning.grammar.places.planted_rows import filled_rows, row_itself, rows_out_of
+from fieldhand.planning.grammar.places.planted_rows import filled_rows, rows_out_of
 from fieldhand.planning.grammar.places.points import outside_zones
 from fieldhand.planning.grammar.places.rows import rows_at
 from fieldhand.planning.grammar.words import Lex
@@ -23,6 +23,7 @@ from fieldhand.planning.selections import (
     are_several_rows,
     as_in_row,
     as_some,
+    as_where,
     blocks_of,
     centre_of,
     is_block,
@@ -238,8 +239,8 @@ def without(whole: PlaceMeaning, out: Omission, site: Site) -> list[PlaceMeaning
 
 def _only_row_of(whole: PlaceMeaning, site: Site) -> s.Selector | None:
     """Return the only row in which all plants of a kind stand, and no others."""
-    kind = whole.selector
-    if not isinstance(kind, s.Where) or kind.of != s.Trees() or whole.count is not None or whole.per is not None:
+    kind = as_where(whole.selector)
+    if kind is None or kind.of != s.Trees() or whole.count is not None or whole.per is not None:
         return None
     rows = filled_rows(kind, site)
     return row_itself(rows[0], site) if len(rows) == 1 else None
