@@ -155,6 +155,24 @@ def test_nothing_further_in(request_, plan):
     require_plan(PASTURE, TRACTOR, request_, plan)
 
 
+ROUND = "for Transect(10, edge, pond): [picture]"
+AT_PACE = [
+    ("Circle the pond once at 0.5 m/s and take a thermal picture every 10 metres.", "speed 0.5"),
+    ("Circle the pond at 0.5 m/s and take a thermal picture every 10 m.", "speed 0.5"),
+    ("Circle the pond once, at 0.5 m/s, and take a thermal picture every 10 metres.", "speed 0.5"),
+    ("Circle the pond at a speed of 0.4 m/s and take thermal pictures every 10 metres.", "speed 0.4"),
+    ("Circle the pond no faster than 0.5 m/s and take a thermal picture every 10 metres.", "speed 0.5"),
+    ("Drive around the pond at 0.5 m/s and take a thermal picture every 10 metres.", "speed 0.5"),
+    ("Drive once around the pond at 0.5 m/s and take a thermal picture every 10 metres.", "speed 0.5"),
+    ("Circle the pond once and take a thermal picture every 10 metres, at 0.5 m/s.", "speed 0.5"),
+]
+
+
+@pytest.mark.parametrize(("request_", "speed"), AT_PACE)
+def test_the_speed_of_a_round_stands_before_what_is_taken_on_it(request_, speed):
+    require_plan(PASTURE, HUSKY, request_, f"{ROUND} | {speed}")
+
+
 def test_nothing_further_in_restricts_no_area():
     require_refusal(PASTURE, TRACTOR, "Mow the cow paddock, nothing further in.", "")
 
