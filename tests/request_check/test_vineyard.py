@@ -187,6 +187,26 @@ WRONG = [
         "</for-each>",
         "merlot",
     ),
+    (
+        "Take a picture of vine N48.",
+        '<act><take_thermal_picture/><at><tree-is tree="N4"/></at></act>',
+        "the plan names tree 'N4'",
+    ),
+    (
+        "Take pictures of N1, N12 and N2.",
+        f'<for-each><select><union><tree-is tree="N1"/><tree-is tree="N2"/></union></select>{PICTURE}</for-each>',
+        "the request names tree N12",
+    ),
+    (
+        "Take pictures of row 5 of the north block.",
+        f'<for-each><select><rows first="6" last="6">{IN_NORTH}</rows></select>{PICTURE}</for-each>',
+        "the plan names row 6",
+    ),
+    (
+        "Take pictures of rows 3 to 5 of the north block.",
+        f'<for-each><select><rows first="3" last="6">{IN_NORTH}</rows></select>{PICTURE}</for-each>',
+        "the plan names row 6",
+    ),
 ]
 
 

@@ -12,6 +12,8 @@ from numpy.typing import ArrayLike, NDArray
 Floats = NDArray[np.float64]
 
 _SYMMETRIC = 1e-3
+#: Variance below which a sum is certain; its powers would underflow.
+_LEAST_VARIANCE = 1e-180
 
 
 def overrun_probability(mean: ArrayLike, variance: ArrayLike, third: ArrayLike, left: ArrayLike) -> Floats:
@@ -28,7 +30,7 @@ def overrun_probability(mean: ArrayLike, variance: ArrayLike, third: ArrayLike, 
 
     m, v, t, x = np.broadcast_arrays(*(np.asarray(a, dtype=np.float64) for a in (mean, variance, third, left)))
     certain = (x - m < -1e-9 * (1.0 + np.abs(x))).astype(np.float64)
-    moving = (v > 0.0) & np.isfinite(m)
+    moving = (v > _LEAST_VARIANCE) & np.isfinite(m)
     deviation = np.sqrt(np.where(moving, v, 1.0))
     z = np.where(moving, (x - m) / deviation, 0.0)
     skewness = np.where(moving, t, 0.0) / deviation**3

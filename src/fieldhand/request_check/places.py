@@ -62,6 +62,7 @@ _CODE_RANGE = re.compile(r"(?<![\w-])([a-z]+|[a-z]*\d+-)(\d+)\s*(?:to|through|th
 def place_mismatches(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
     """Yield contradictions in places."""
     yield from _trees(facts, plan)
+    yield from _codes(facts, plan, site)
     yield from _rows(facts, plan, site)
     yield from _areas(facts, plan, site)
     yield from _gates(facts, plan, site)
@@ -91,8 +92,7 @@ def _trees(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
     spoken = facts.text.replace(" ", "")
     numbers = {str(n) for n in facts.whole_numbers}
     for node, tree in plan.trees:
-        spelt = "".join(ch for ch in tree.lower() if ch.isalnum())
-        if _digits(tree) in numbers or tree.lower() in spoken or spelt in "".join(c for c in spoken if c.isalnum()):
+        if _digits(tree) in numbers or _spelling(tree).search(spoken):
             continue
         if any(_is_between(tree.lower(), *ends) for ends in _CODE_RANGE.findall(facts.text.replace(" - ", "-"))):
             continue
@@ -103,6 +103,23 @@ def _trees(facts: RequestFacts, plan: PlanFacts) -> Iterator[PlanMismatch]:
             what=message("the plan names tree '{tree}', but the request does not", tree=tree[:40]),
             node=node,
         )
+
+
+def _spelling(tree: str) -> re.Pattern[str]:
+    """Return the pattern of an id in a request without spaces: "n-25" and "n25", but not "n250"."""
+    return re.compile(r"[\W_]*".join(re.escape(ch) for ch in tree.lower() if ch.isalnum()) + r"(?!\d)")
+
+
+def _codes(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
+    """Yield ids with letters that the request names and the plan lacks ("N250, N300 and N2")."""
+    named = {tree.lower() for _, tree in plan.trees}
+    if not named or _CODE_RANGE.search(facts.text.replace(" - ", "-")):
+        return
+    ids = {tree.place.id.lower(): tree.place.id for tree in site.trees if not tree.place.id.isdigit()}
+    for code in dict.fromkeys(re.findall(r"[a-z]+\d+(?:-\d+)?", facts.text)):
+        if code in ids and code not in named:
+            what = message("the request names tree {number}, but the plan does not", number=ids[code])
+            yield PlanMismatch(kind="place", what=what)
 
 
 def _is_in_series(number: str, text: str) -> bool:
@@ -132,8 +149,9 @@ def _rows(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
     if not all(_NUMBER.fullmatch(name) for _, row in rows for name in (row.first, row.last)):
         return
     counted_there = _counts_rows_of_area(facts, plan)
+    ranks = {rank for _, row in rows for rank in _ranks(row.first, site)} if counted_there else set()
     for amount in facts.amounts:
-        if counted_there or not _is_row(facts, amount) or _of_named_tree(facts, plan, amount):
+        if int(amount.values[0]) in ranks or not _is_row(facts, amount) or _of_named_tree(facts, plan, amount):
             continue
         if any(True for _ in plan.having(s.Across)):
             continue  # "the plant opposite in row 2"
@@ -142,10 +160,12 @@ def _rows(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
                 "the request names row {row}, but the plan does not", row=Number(f"{amount.values[0]:g}")
             )
             yield PlanMismatch(kind="place", what=what_differs)
-    if facts.unknown or _SOME_ROWS.search(facts.text) or _PLANTED_FIRST.search(facts.text) or counted_there:
+    if facts.unknown or _SOME_ROWS.search(facts.text) or _PLANTED_FIRST.search(facts.text):
         return
     for node, row in rows:
         for name in dict.fromkeys((row.first, row.last)):
+            if counted_there and _ranks(name, site) & {*facts.whole_numbers}:
+                continue
             if int(name) > 1 and int(name) not in facts.whole_numbers and not _is_named_by_plants(name, facts, site):
                 yield PlanMismatch(
                     kind="place",
@@ -160,10 +180,17 @@ def _counts_rows_of_area(facts: RequestFacts, plan: PlanFacts) -> bool:
     return any(re.search(rf"\brow(?: \d+)? (?:in|of) (?:\w+ )?{name}\b", facts.text) for name in names)
 
 
+def _ranks(name: str, site: Site) -> set[int]:
+    """Return which of its block's rows a row is, 1 for the first, for each block that has one of this name."""
+    return {rank for block in site.planting.blocks for rank, row in enumerate(block.rows, start=1) if row.name == name}
+
+
 def _is_named_by_plants(name: str, facts: RequestFacts, site: Site) -> bool:
     """Return True if the request names a row by what its plants are: "the pumpkin bed"."""
     spoken = {w.singular(word) for word in facts.words} | facts.words
-    return any(set(value.split()) & spoken for value in _values_in_row(name, site, shared=False))
+    blocks = {_name_text(block.name) for block in site.planting.blocks}
+    values = _values_in_row(name, site, shared=False) - blocks
+    return any(set(value.split()) & spoken for value in values)
 
 
 def _values_in_row(name: str, site: Site, *, shared: bool) -> set[str]:
