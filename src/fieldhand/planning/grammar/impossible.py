@@ -213,6 +213,17 @@ def reacting_otherwise() -> Impossible:
     )
 
 
+@construction("UNTILOVER FOR least=amount", "UNTILOVER ATLEAST least=amount", "UNTILOVER FOR ATLEAST least=amount")
+def over_for_so_long(least: Amount) -> Impossible | None:
+    """Compose "until they have been gone for a minute"."""
+    if least.unit != "seconds":
+        return None
+    return Impossible(
+        message("how long it must be over before the robot goes on is set in its profile (clear_s)"),
+        message("say 'until it is over', or 'at most 5 minutes' for the longest wait"),
+    )
+
+
 @construction("hottest read_noun when=PERIOD", "read_noun with_most when=PERIOD")
 def hottest_without_a_number(when: Lex) -> Impossible | None:
     """Compose "the hottest trees of last week"."""

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 
 from fieldhand.language import message, named
 from fieldhand.language.words import listed, say_action, say_unit, some_names
+from fieldhand.places.place_errors import no_such_tree
 from fieldhand.planning.english.lacking import lacked_actions, measured_units
 from fieldhand.planning.english.languages import language_of
 from fieldhand.planning.english.tokens import Word, words_of
@@ -149,6 +151,8 @@ def _unknown(
         block = k > 0 and words[k - 1].norm in ("block", "blocks")
         if k in rows or block:
             yield _no_such(word, site, block=block)
+        elif (code := _code_of_tree(words, k, site)) is not None:
+            yield code
         else:
             strange.append(k)
     lacked = list(lacked_actions(words, frozenset(strange), robot))
@@ -159,6 +163,26 @@ def _unknown(
     named = {k for one in lacked for k in range(one.first, one.last)}
     if rest := [words[k] for k in strange if k not in named]:
         yield not_understood(rest)
+
+
+def _code_of_tree(words: Sequence[Word], k: int, site: Site) -> Reason | None:
+    """Return the reason for a word that is written like the ids of the site's trees ("G9-04") and is none of them."""
+    last = k
+    while last + 1 < len(words) and words[last + 1].start == words[last].end and words[last + 1].kind != "stop":
+        last += 1
+    code = "".join(word.text for word in words[k : last + 1]).rstrip(",;:")
+    if not any(sign.isdigit() for sign in code) or code in site.by_id:
+        return None
+    if _shape_of(code) not in {_shape_of(tree.place.id) for tree in site.trees}:
+        return None
+    error = no_such_tree(site, code)
+    said = ((words[k].start, words[k].start + len(code)),)
+    return Reason(what=error.what, said=said, advice=error.advice, final=True)
+
+
+def _shape_of(code: str) -> str:
+    """Return how a code is written: its signs, "0" for digits and "a" for letters."""
+    return re.sub(r"[^\W\d_]+", "a", re.sub(r"\d+", "0", code))
 
 
 def _unmeasured(words: Sequence[Word], edges: Sequence[PhraseEdge], robot: RobotProfile) -> Iterator[Reason]:

@@ -172,7 +172,12 @@ def _evenly(command: CaptureCommand, drawing: _Drawing) -> CaptureCommand | None
 def _free_choice(command: CaptureCommand, count: int | None) -> CaptureCommand | None:
     """Return a command at some trees, which its words leave open; ``count`` is their number if it was said again."""
     place = command.place
-    if place is None or place.shape == "those" or count not in (None, place.count):
+    if place is None or place.shape == "those":
+        return None
+    quota = as_quota(place.selector)
+    if quota is not None and quota.how != "random":  # "three plants of each crop, any three will do"
+        return command if count in (None, quota.count) else None
+    if count not in (None, place.count):
         return None
     some = any(as_some(part) is not None for part in place.selector.members)
     return command if some or (place.shape == "area" and not _is_uncounted(command)) else None

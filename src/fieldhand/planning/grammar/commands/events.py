@@ -242,9 +242,14 @@ def skips_row() -> WatchResponse:
 
 
 @construction("lasting: most=at_most", "lasting: FOR most=at_most", "lasting: INSIDE most=amount", cost=0.0)
-@construction("lasting: FOR most=amount", "lasting: most=amount", cost=0.1)
 def lasting(most: Amount) -> Amount | None:
     """Compose "for at most 10 minutes"."""
+    return most if most.unit == "seconds" else None
+
+
+@construction("lasting_so: FOR most=amount", "lasting_so: most=amount", cost=0.1)
+def lasting_so(most: Amount) -> Amount | None:
+    """Compose "for 10 minutes"."""
     return most if most.unit == "seconds" else None
 
 
@@ -270,6 +275,10 @@ def until_over(first: WatchResponse) -> WatchResponse | None:
     "reacts: first=reacts [COMMA] CONTRAST most=lasting",
     "reacts: first=reacts [COMMA] BUT most=lasting",
     "reacts: first=reacts [COMMA] AND HOLD most=lasting",
+    "reacts: first=reacts COMMA most=lasting_so",
+    "reacts: first=reacts [COMMA] CONTRAST most=lasting_so",
+    "reacts: first=reacts [COMMA] BUT most=lasting_so",
+    "reacts: first=reacts [COMMA] AND HOLD most=lasting_so",
     cost=0.1,
 )
 def for_so_long(first: WatchResponse, most: Amount) -> WatchResponse | None:
@@ -277,6 +286,12 @@ def for_so_long(first: WatchResponse, most: Amount) -> WatchResponse | None:
     if first.response != "wait" or first.at_most_s is not None or most.number < 1.0:
         return None
     return replace(first, at_most_s=most.number)
+
+
+@construction("reacts: first=reacts most=lasting_so", cost=0.1)
+def waits_so_long(first: WatchResponse, most: Amount) -> WatchResponse | None:
+    """Compose "wait 10 minutes"; in "wait until it has been dry for 10 minutes", the wait ends later than that."""
+    return None if first.over else for_so_long(first, most)
 
 
 @construction(

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Adjunct, once
-from fieldhand.planning.grammar.meaning import CaptureCommand, PlaceMeaning, Thing
+from fieldhand.planning.grammar.meaning import CaptureCommand, LinkedCommand, PaceClause, PlaceMeaning, Said, Thing
 from fieldhand.planning.grammar.places.points import Points, points_on
 from fieldhand.planning.grammar.places.sampling import (
     SamplingPath,
@@ -98,6 +98,17 @@ def _at(command: CaptureCommand, selector: s.Selector | None, count: int | None)
 def along_path(along: tuple[SamplingPath, s.Selector | None], site: Site) -> Adjunct:
     """Compose "in a W through the north block", of so many samples."""
     return Adjunct(_along, _Route(*along, site), may_lead=True, late=True, lays_out=True)
+
+
+@construction("said: along=path_over [COMMA] how=pace [COMMA] AND act=capture", cost=0.3, given=("site",))
+def round_at_pace(
+    along: tuple[SamplingPath, s.Selector | None], how: PaceClause, act: CaptureCommand, used: int, site: Site
+) -> Said | None:
+    """Compose "circle the pond at 0.5 m/s and take a picture every 10 m"."""
+    made = _along(act, _Route(*along, site))
+    if made is None:
+        return None
+    return Said((LinkedCommand(None, replace(made, used=used & ~how.used)), LinkedCommand(None, how)))
 
 
 @construction("adjunct: ONPATH", "adjunct: ONTHEWAY", cost=0.2)

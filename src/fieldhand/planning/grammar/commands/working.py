@@ -328,6 +328,19 @@ def nothing_else(one: WorkCommand, used: int) -> WorkCommand | None:
     return None if one.along is None else replace(one, used=used)
 
 
+@construction("work: one=work [COMMA] NOFURTHERIN", cost=0.2)
+def nothing_further_in(one: WorkCommand, used: int) -> WorkCommand | None:
+    """Compose "two laps along the edge, nothing further in"."""
+    return None if one.along is None or one.mode != "perimeter" else replace(one, used=used)
+
+
+@construction("work: one=work [COMMA] AGAINSTPEST", cost=0.2, given=("robot",))
+def sprayed_against(one: WorkCommand, used: int, robot: RobotProfile) -> WorkCommand | None:
+    """Compose "spray row 4 against the mildew": what the tank holds is up to the person."""
+    sprays = one.action in robot.action and "spray" in robot.action[one.action].verbs
+    return replace(one, used=used) if sprays and one.along is not None else None
+
+
 @construction("work: one=work [COMMA] ASMANY as_can", cost=0.1)
 def as_much(one: WorkCommand, used: int) -> WorkCommand | None:
     """Compose "spray rows 3 to 8, as much as you can"."""

@@ -152,6 +152,14 @@ def visits(place: PlaceMeaning, said: Spans) -> p.ForEach:
     )
 
 
+def _counts_in_no_row(part: s.Selector, site: Site) -> bool:
+    """Return True for "plant 7" where several rows have one, and the ids of plants are no numbers."""
+    number = part.named_tree
+    if not number.isdigit() or any(tree.place.id.isdigit() for tree in site.trees):
+        return False
+    return sum(1 <= int(number) <= len(row.trees) for row in site.planting.rows) > 1
+
+
 def require_known(setting: Setting, state: DialogueState, place: PlaceMeaning | None, used: int) -> None:
     """Refuse places that refer to one which is not known, or which an optional step may leave out.
 
@@ -174,6 +182,8 @@ def require_known(setting: Setting, state: DialogueState, place: PlaceMeaning | 
             message("'{said}' could be counted in several ways", said=setting.quoted(place.tokens if place else used)),
             advice=message("say of which row and from which end: 'the third tree of row 4 from the north'"),
         )
+    if any(_counts_in_no_row(part, setting.site) for part in parts):
+        raise OpenQuestion(message("'{said}': which row?", context="question", said=setting.quoted(used)))
     from_here = [part for part in parts if starts_here(part)]
     if from_here:
         if state.where is None or (state.where.shape != "one" and not is_inside(state.scope, state.loop or (-1,))):

@@ -279,11 +279,22 @@ def _described(state: DialogueState, mark: s.Selector) -> s.Selector:
     return found[0]
 
 
+def _best_of_them(where: PlaceMeaning | None, best: s.Top) -> s.Selector:
+    """Return the best of the places of the step before ("the tallest of them")."""
+    group = None if where is None or where.per is not None or where.optional else where.selector
+    drawn = group is not None and any(hasattr(part, "count") for part in group.walk())
+    if group is None or drawn or group.relative or not (is_by_attribute(group) or are_rows(group)):
+        raise NotComposed(message("it is not clear which one is meant", context="fault"))
+    return replace(best, of=group)
+
+
 def _best_of_ranked(state: DialogueState, command: _WithPlace, best: s.Top) -> Command:
     """Return a command at the best of the trees that were ranked."""
     ranking = state.ranking
     last = None if ranking is not None or state.where is None else state.where.selector
     where = state.where
+    if command.place is not None and command.place.like is not None and command.place.like.holds:
+        return replace(command, place=replace(command.place, selector=_best_of_them(where, best), like=None))
     if best.attribute and best.count == 1 and best.of == s.Trees() and ranking is None and where is not None:
         group = where.selector  # "photograph the beans, then take a leaf of the tallest one"
         of_those = where.shape == "several" and where.per is None and not group.relative and is_by_attribute(group)

@@ -11,9 +11,9 @@ from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.chosen import Chosen, chosen_among
 from fieldhand.planning.grammar.places.clauses import Clause, with_attribute
 from fieldhand.planning.grammar.places.compass import CORNERS
-from fieldhand.planning.grammar.places.counted import BOTH_ENDS, Span, rows_within
+from fieldhand.planning.grammar.places.counted import BOTH_ENDS, Span, row_itself, rows_within
 from fieldhand.planning.grammar.places.numbered import all_of, elsewhere, ids_of, numbered
-from fieldhand.planning.grammar.places.planted_rows import rows_out_of
+from fieldhand.planning.grammar.places.planted_rows import filled_rows, rows_out_of
 from fieldhand.planning.grammar.places.points import outside_zones
 from fieldhand.planning.grammar.places.rows import rows_at
 from fieldhand.planning.grammar.words import Lex
@@ -23,6 +23,7 @@ from fieldhand.planning.selections import (
     are_several_rows,
     as_in_row,
     as_some,
+    as_where,
     blocks_of,
     centre_of,
     is_block,
@@ -139,11 +140,16 @@ def position_left_out(at: Span) -> tuple[Span, ...]:
     "left_out_at: [DET] FINISH noun=TREE",
     "left_out_at: DET ONE AT DET noun=FINISH",
     "left_out_at: DET TREE AT DET noun=FINISH",
+    "left_out_at: [DET] n=count [ONE] AT DET noun=FINISH",
+    "left_out_at: [DET] n=count TREE AT DET noun=FINISH",
+    "left_out_at: BOTH noun=FINISH",
+    "left_out_at: DET ONE AT BOTH noun=FINISH",
+    "left_out_at: DET TREE AT BOTH noun=FINISH",
     cost=0.1,
 )
-def ends_left_out(noun: Lex) -> tuple[Span, ...] | None:
-    """Compose "its ends" and "the end trees" behind "except"."""
-    return BOTH_ENDS if noun.plural else None
+def ends_left_out(noun: Lex, n: int = 2) -> tuple[Span, ...] | None:
+    """Compose "its ends", "the end trees" and "the two at the ends" behind "except"."""
+    return BOTH_ENDS if noun.plural and n == 2 else None
 
 
 @construction("out: positions=left_out", "out: positions=left_out in_ rows=any_rows", cost=0.0)
@@ -212,6 +218,8 @@ def without(whole: PlaceMeaning, out: Omission, site: Site) -> list[PlaceMeaning
     if out.place is not None:
         left = except_for(whole, out.place, site)
         return None if left is None else [left]
+    if out.positions and (row := _only_row_of(whole, site)) is not None:
+        return _ends_of_only_row(whole, out, row)
     if out.positions and not are_several_rows(whole.selector):
         return except_positions(whole, out.positions, out.rows)
     if out.positions and out.rows is not None:
@@ -227,6 +235,23 @@ def without(whole: PlaceMeaning, out: Omission, site: Site) -> list[PlaceMeaning
     if out.as_trees and not parts and ids_of(whole.selector, site) is not None:
         return [elsewhere(out.trees)]
     return [_excluding(whole, part) for part in parts] or None
+
+
+def _only_row_of(whole: PlaceMeaning, site: Site) -> s.Selector | None:
+    """Return the only row in which all plants of a kind stand, and no others."""
+    kind = as_where(whole.selector)
+    if kind is None or kind.of != s.Trees() or whole.count is not None or whole.per is not None:
+        return None
+    rows = filled_rows(kind, site)
+    return row_itself(rows[0], site) if len(rows) == 1 else None
+
+
+def _ends_of_only_row(whole: PlaceMeaning, out: Omission, row: s.Selector) -> list[PlaceMeaning] | None:
+    """Return "every pumpkin except the two at the ends of the row"."""
+    if out.rows not in (None, s.RowOf(), row) or (out.rows is None and out.positions != BOTH_ENDS):
+        return None
+    parts = all_of([s.InRow(first=first, last=last, of=row) for first, last in out.positions])
+    return [replace(whole, selector=s.Excluding(places=parts, of=whole.selector), shape="several")]
 
 
 def _excluding(whole: PlaceMeaning, part: s.Selector) -> PlaceMeaning:

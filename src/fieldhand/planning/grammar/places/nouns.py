@@ -75,6 +75,15 @@ def extreme_of_those(side: Lex) -> PlaceMeaning | None:
     return PlaceMeaning(s.Extreme(side=side.value), "one", like=Likewise("extreme", side=side.value))
 
 
+@construction("place: DET rank=ranking OFTHEM", cost=0.4)
+@construction("place: DET n=count rank=ranking OFTHEM", "place: DET rank=ranking n=count OFTHEM", cost=0.4)
+def best_of_them(rank: tuple[str, bool], n: int = 1) -> PlaceMeaning | None:
+    """Compose "the tallest of them"."""
+    best = s.Top(attribute=rank[0], count=n, lowest=rank[1])
+    shape: Literal["one", "several"] = "one" if n == 1 else "several"
+    return PlaceMeaning(best, shape, count=n, like=Likewise("ranked", holds=True)) if rank[0] else None
+
+
 @construction("place: DET rank=ranking", cost=1.0, given=("robot",))
 def best_one(rank: tuple[str, bool], robot: RobotProfile) -> PlaceMeaning | None:
     """Compose "the oldest"; "the driest" is rather that of the places whose moisture was read."""

@@ -71,6 +71,15 @@ def rows_that_pass(noun: Lex, test: AttributeTest) -> tuple[s.Selector, bool]:
     return that_pass(test, s.Trees()), noun.plural
 
 
+@construction("planted_rows: noun=ROW is_not test=attribute_test", cost=0.3)
+def rows_that_do_not_pass(noun: Lex, test: AttributeTest) -> tuple[s.Selector, bool] | None:
+    """Compose "beds that aren't covered"."""
+    name, check, value = test
+    if check != "eq" or not isinstance(value, bool):
+        return None
+    return that_pass((name, check, not value), s.Trees()), noun.plural
+
+
 # Rows.
 
 
