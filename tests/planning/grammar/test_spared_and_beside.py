@@ -106,6 +106,53 @@ def test_so_many_rows_are_those_that_are_there() -> None:
     require_refusal(GLASSHOUSE, TRACTOR, "Film the three rows in the mild bay.", "")
 
 
+_EACH_BUT = "for Quota(row, 2, random, of Excluding(Rows(6, 6), of Rows)): [picture]"
+
+CHOSEN = [
+    (GARDEN, "Choose two plants at random in each bed and photograph them, but leave out the kale.", _EACH_BUT),
+    (GARDEN, "Choose two plants at random in each bed and photograph them, but not the kale.", _EACH_BUT),
+    (GARDEN, "Choose two plants at random in each bed and photograph them. Leave out the kale.", _EACH_BUT),
+    (GARDEN, "Leave out the kale. Choose two plants at random in each bed and photograph them.", _EACH_BUT),
+    (
+        GARDEN,
+        "Go to two plants in each bed and photograph them, but leave out bed 3.",
+        "for Quota(row, 2, of Excluding(Rows(3, 3), of Rows)): [picture]",
+    ),
+    (
+        GARDEN,
+        "Choose two plants in each bed, photograph them, and skip the potatoes.",
+        "for Quota(row, 2, of Excluding(UnionOf(Rows(1, 1)+Rows(2, 2)), of Rows)): [picture]",
+    ),
+    (
+        GARDEN,
+        "Pick two plants in every bed and photograph them, but leave out the kale and the beans.",
+        "for Quota(row, 2, of Excluding(UnionOf(Rows(4, 4)+Rows(6, 6)), of Rows)): [picture]",
+    ),
+    (
+        GARDEN,
+        "Choose two plants at random in each bed and photograph them, but leave out the netted ones.",
+        "for Quota(row, 2, random, of Excluding(UnionOf(Rows(3, 3)+Rows(4, 4)), of Rows)): [picture]",
+    ),
+    (
+        GLASSHOUSE,
+        "Photograph two plants of each aubergine cultivar.",
+        "for Quota(cultivar, 2, of Where(crop, eq, aubergine)): [picture]",
+    ),
+    (
+        GLASSHOUSE,
+        "Take a thermal picture of three random plants from each aubergine cultivar.",
+        "for Quota(cultivar, 3, random, of Where(crop, eq, aubergine)): [picture]",
+    ),
+    (GARDEN, "Take a picture of bed 3's first plant for the student.", "picture @ InRow(1, 1, of Rows(3, 3))"),
+    (PASTURE, "Take five CO2 readings on the bank for our trainees.", "for PointsIn(bank, 5): [co2]"),
+]
+
+
+@pytest.mark.parametrize(("site", "request_", "plan"), CHOSEN)
+def test_plants_chosen_of_each_group_but_those_left_out(site: Site, request_: str, plan: str) -> None:
+    require_plan(site, HUSKY, request_, plan)
+
+
 @pytest.mark.parametrize(("request_", "plan"), MOWED)
 def test_mowing_spares_what_is_left_standing(request_: str, plan: str) -> None:
     require_plan(PASTURE, TRACTOR, request_, plan)
@@ -151,9 +198,5 @@ def test_a_strip_without_a_width_is_not_guessed(request_: str) -> None:
     ],
 )
 def test_a_robot_sent_back_to_a_place_in_one_case_stays_there(request_: str, end: str) -> None:
-    assert (
-        EnglishPlanner()
-        .plan(f"Read the soil moisture at the bank. {request_}", PASTURE, TRACTOR)
-        .task.composition.nominal
-        == end
-    )
+    outcome = EnglishPlanner().plan(f"Read the soil moisture at the bank. {request_}", PASTURE, TRACTOR)
+    assert outcome.task.composition.nominal == end
