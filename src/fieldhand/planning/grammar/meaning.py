@@ -457,6 +457,7 @@ class WayRule:
             through").
         used: Tokens of the phrase.
         slow: Places at which it drives slowly.
+        leaves: True if the phrase says by which gate it leaves.
     """
 
     avoid: tuple[tuple[s.Selector, float], ...] = ()
@@ -464,6 +465,7 @@ class WayRule:
     left_out: tuple[s.Selector, ...] = ()
     used: int = 0
     slow: tuple[SlowPlace, ...] = ()
+    leaves: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,7 +15,10 @@ GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
 
-@construction("at_edge: word=AT [DET] zone=ZONE", "at_edge: word=OF [DET] zone=ZONE", cost=0.2, given=("site",))
+@construction(
+    "at_edge: word=AT [DET] zone=ZONE", "at_edge: word=OF [DET] zone=ZONE", "at_edge: word=BESIDE [DET] zone=ZONE",
+    cost=0.2, given=("site",),
+)  # fmt: skip
 def at_edge(word: Lex, zone: Lex, site: Site) -> s.Selector | None:
     """Compose "at the pond", at its edge; into it the robot cannot drive."""
     beside = "beside_it" in word.features and is_keep_out(s.InZone(zone=zone.value), site)

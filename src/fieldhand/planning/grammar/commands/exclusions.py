@@ -12,6 +12,7 @@ from fieldhand.planning.grammar.meaning import (
     CaptureCommand,
     Command,
     Connective,
+    DriveCommand,
     Lead,
     Likewise,
     LinkedCommand,
@@ -198,7 +199,9 @@ def _is_every_second(command: Command) -> bool:
     return any(getattr(one, "every", getattr(one, "nth", 1)) == 2 for one in parts)
 
 
-def _each_without(said: Said, out: Excluded, site: Site, *, first: bool = False) -> list[CaptureCommand | Lead | None]:
+def _each_without(
+    said: Said, out: Excluded, site: Site, *, first: bool = False
+) -> list[CaptureCommand | DriveCommand | Lead | None]:
     """Return commands without the places that are left out; None for those that have none of them.
 
     Where no command has such places, those of a description are left out of all of them.
@@ -210,7 +213,7 @@ def _each_without(said: Said, out: Excluded, site: Site, *, first: bool = False)
     return [_without(clause.command, out, site, first=first, some=False) for clause in said.clauses]
 
 
-def _with(said: Said, other: Sequence[CaptureCommand | Lead | None], numbers: Sequence[int]) -> Said:
+def _with(said: Said, other: Sequence[CaptureCommand | DriveCommand | Lead | None], numbers: Sequence[int]) -> Said:
     """Return commands with others for those of some numbers."""
     clauses = tuple(
         replace(clause, command=made) if number in numbers and made is not None else clause
@@ -221,7 +224,7 @@ def _with(said: Said, other: Sequence[CaptureCommand | Lead | None], numbers: Se
 
 def _without(
     command: object, out: Excluded, site: Site, *, first: bool = False, some: bool = True
-) -> CaptureCommand | Lead | None:
+) -> CaptureCommand | DriveCommand | Lead | None:
     """Return a command at its places but those that are left out; None if it has none of them, or no others.
 
     Args:
@@ -231,9 +234,11 @@ def _without(
         first: True if this was said before the command, which then may choose among the others.
         some: False to leave them out even if there are none.
     """
-    if not isinstance(command, CaptureCommand | Lead) or command.place is None:
+    if not isinstance(command, CaptureCommand | DriveCommand | Lead) or command.place is None:
         return None
-    things = command.things
+    if isinstance(command, DriveCommand) and command.place.per is None:
+        return None  # of drives, only "choose two plants in each bed" leaves some out
+    things = () if isinstance(command, DriveCommand) else command.things
     if out.actions and not (things and all(one.action in out.actions for one in things)):
         return None
     whole, used = command.place, command.used | out.used
@@ -268,7 +273,8 @@ def _without(
 
 def left_out_of(command: CaptureCommand | Lead, out: Excluded, site: Site) -> CaptureCommand | Lead | None:
     """Return a command at its places but those that are left out; None if it has none of them, or no others."""
-    return _without(command, out, site)
+    left = _without(command, out, site)
+    return None if isinstance(left, DriveCommand) else left
 
 
 def _others(whole: PlaceMeaning, out: Excluded, site: Site) -> PlaceMeaning | None:

@@ -18,10 +18,12 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
     Said,
     WayRule,
+    WorkCommand,
 )
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import is_drawn, is_gate, named_places, swapped
+from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -84,6 +86,71 @@ def keep_distance(
     return None if places is None else WayRule(tuple((one, far.number) for one in places), used=used)
 
 
+@construction("of_grass: OF GRASSWORD", cost=0.0)
+def of_grass() -> str:
+    """Compose "of grass" behind a width."""
+    return "grass"
+
+
+@construction(
+    "left_around: far=amount [of_grass] [UNCUT]",
+    "left_around: far=amount STRIP [of_grass] [UNCUT]",
+    "left_around: DET [far=amount] STRIP [of_grass] [UNCUT]",
+    "left_around: [DET] STRIP OF far=amount [of_grass] [UNCUT]",
+    "left_around: DET far=amount RADIUS [of_grass] [UNCUT]",
+    "left_around: BERTH far=amount [of_grass] [UNCUT]",
+    cost=0.1,
+)
+def left_around(far: Amount | None = None) -> Amount | None:
+    """Compose "four metres of grass standing" before "around the trough"."""
+    return far if far is not None and far.unit == "metres" and far.number > 0 else None
+
+
+@construction(
+    "left_round: LEAVE far=left_around AROUND place=place",
+    "left_round: LEAVE far=left_around AROUND place=place word=UNCUT",
+    "left_round: LEAVE AROUND place=place far=left_around",
+    cost=0.2,
+)
+def left_round(far: Amount, place: PlaceMeaning, used: int, word: Lex | None = None) -> WayRule | None:
+    """Compose "leave four metres of grass standing around the trough", which mowing then keeps away from."""
+    del word
+    places = kept_from(place, far.number)
+    return None if places is None else WayRule(tuple((one, far.number) for one in places), used=used)
+
+
+@construction(
+    "left_round: rule=left_round AND [AROUND] place=place",
+    "left_round: rule=left_round COMMA [AROUND] place=place",
+    cost=0.1,
+)
+def left_round_also(rule: WayRule, place: PlaceMeaning, used: int) -> WayRule | None:
+    """Compose "leave four metres around the trough and around the weather mast"."""
+    return also_from(rule, place, used)
+
+
+@construction("said: before=said [joint=joint] rule=left_round", cost=0.2, given=("site", "robot"))
+def grass_left_behind(
+    before: Said, rule: WayRule, site: Site, robot: RobotProfile, joint: Connective | None = None
+) -> Said | None:
+    """Compose "mow the paddock, but leave four metres standing around the trough"."""
+    return rule_behind(before, rule, site, joint) if _only_mows(before, robot) else None
+
+
+@construction("said: rule=left_round joint=joint rest=said", cost=0.2, given=("site", "robot"))
+def grass_left_before(rule: WayRule, joint: Connective, rest: Said, site: Site, robot: RobotProfile) -> Said | None:
+    """Compose "leave four metres standing around the trough and mow the rest of the paddock"."""
+    return rule_before(rule, joint, rest, site) if _only_mows(rest, robot) else None
+
+
+def _only_mows(said: Said, robot: RobotProfile) -> bool:
+    """Return True if all the work of some commands covers ground; from no other work is a strip left."""
+    work = [one.command for one in said.clauses if isinstance(one.command, WorkCommand) and one.command.action]
+    implements = [robot.action[one.action].implement for one in work]
+    others = any(isinstance(one.command, CaptureCommand) for one in said.clauses)
+    return bool(work) and not others and all(one is not None and one.covers for one in implements)
+
+
 @construction("gates: [DET] gate=GATENAME", cost=0.0)
 def one_gate(gate: Lex) -> tuple[str, ...]:
     """Compose "the east gate"."""
@@ -97,11 +164,12 @@ def several_gates(first: tuple[str, ...], second: tuple[str, ...]) -> tuple[str,
 
 
 @construction(
-    "way_rule: ONLYVIA gates=gates", "way_rule: VIAGATE gates=gates ONLY", "way_rule: ENTERBY gates=gates", cost=0.0
-)
-def only_gates(gates: tuple[str, ...], used: int) -> WayRule:
+    "way_rule: ONLYVIA gates=gates", "way_rule: VIAGATE gates=gates ONLY", "way_rule: word=ENTERBY gates=gates",
+    cost=0.0,
+)  # fmt: skip
+def only_gates(gates: tuple[str, ...], used: int, word: Lex | None = None) -> WayRule:
     """Compose "use the east gate only" and "only through the east gate"."""
-    return WayRule(gates=gates, used=used)
+    return WayRule(gates=gates, used=used, leaves=word is not None and "leaves" in word.features)
 
 
 @construction(
@@ -172,6 +240,8 @@ def rule_behind(before: Said, rule: WayRule, site: Site, joint: Connective | Non
     """Compose "photograph row 3. Stay out of row 5."."""
     if joint is None and rule.slow:
         return None  # "photograph every tree at 0.5 m/s in row 3"
+    if rule.leaves and joint is not None and joint.then:
+        return None  # "then leave through the south door": at that moment
     return Said((*_keeping(before, rule, site), LinkedCommand(joint, rule)))
 
 
@@ -231,6 +301,19 @@ def _kept(command: Command, places: s.Selector, site: Site, *, leaves_out: bool)
         return command  # "trees 4 and 9": a check tells which of them cannot be reached
     rest = left_out_of(command, Excluded(PlaceMeaning(places, "area")), site)
     return command if rest is None else rest
+
+
+@construction("leaving: word=ENTERBY gate=place", cost=0.1)
+def leaving(word: Lex, gate: PlaceMeaning, used: int) -> DriveCommand | None:
+    """Compose "leave through the south door" as a drive."""
+    through = "leaves" in word.features and gate.shape == "one" and is_gate(gate.selector)
+    return DriveCommand(gate, used) if through else None
+
+
+@construction("said: before=said joint=joint out=leaving", cost=0.1)
+def left_by_gate(before: Said, joint: Connective, out: DriveCommand) -> Said | None:
+    """Compose ", then leave through the south door" as a step behind others."""
+    return Said((*before.clauses, LinkedCommand(joint, out))) if joint.then else None
 
 
 @construction("through_to: VIAGATE gate=place AT to=place", "through_to: GO THROUGH gate=place AT to=place", cost=0.2)

@@ -13,6 +13,7 @@ from fieldhand.planning.grammar.commands.parameters import with_parameter
 from fieldhand.planning.grammar.meaning import Amount, Nominal, ParameterValue, Thing, WorkCommand
 from fieldhand.planning.grammar.places.areas import edges
 from fieldhand.planning.grammar.places.compass import SIDES
+from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.places.numbers import name_of
 from fieldhand.planning.grammar.places.planted_rows import rows_out_of
 from fieldhand.planning.grammar.words import Lex
@@ -97,6 +98,20 @@ def some_aisles_between(part: Tract, first: Lex, last: Lex) -> Tract | None:
     return replace(part, selector=s.Rows(first=name_of(first), last=name_of(last)))
 
 
+@construction(
+    "tract: EACH [word=DET] n=count noun=ROW in_ where=region", "tract: word=DET n=count noun=ROW in_ where=region",
+    cost=0.1, given=("site",),
+)  # fmt: skip
+def all_rows_there(n: int, noun: Lex, where: s.Selector, site: Site, word: Lex | None = None) -> Tract | None:
+    """Compose "all four rows in the cool section", of a section that has four, each with all its plants."""
+    if n < 2 or not noun.plural or are_rows(where) or (word is not None and "definite" not in word.features):
+        return None
+    plants = ids_of(where, site) or set()
+    rows = [{site.trees[tree].place.id for tree in row.trees} for row in site.planting.rows]
+    there = [row for row in rows if row & plants]
+    return Tract(over(s.Rows(), where), "rows") if len(there) == n and all(row <= plants for row in there) else None
+
+
 @construction("tract: part=tract OF where=region", "tract: part=tract in_ where=region", cost=0.1)
 def tract_of(part: Tract, where: s.Selector) -> Tract | None:
     """Compose "every second aisle of the north block"."""
@@ -152,6 +167,12 @@ def ground(where: s.Selector) -> Tract | None:
 def whole_site(out: s.Selector | None = None) -> Tract:
     """Compose "everything but the wet corner"."""
     return Tract(s.Trees() if out is None else s.Excluding(places=out), None)
+
+
+@construction("tract: EVERYTHING in_ where=region", cost=0.1)
+def everything_there(where: s.Selector) -> Tract | None:
+    """Compose "everything in the meadow except the slope" behind a verb of work."""
+    return None if are_rows(where) or where == edges() else Tract(where, None)
 
 
 @construction("tract: EACH [DET] inner=nominal", cost=0.6, given=("site",))
@@ -375,6 +396,7 @@ def one_side_and_the_other() -> str:
 
 @construction(
     "work: one=work [COMMA] [FROM] EACHSIDE", "work: one=work [COMMA] [GO] two_sides",
+    "work: one=work [COMMA] EACH [ONE] [FROM] EACHSIDE", "work: one=work [COMMA] EACH OF IT [FROM] EACHSIDE",
     "work: one=work FULLSTOP [GO] two_sides", "work: one=work [COMMA] [times=often] [COMMA] ONCE [FROM] EACHSIDE",
     "work: one=work [COMMA] [FROM] EACHSIDE ONCE", cost=0.1,
 )  # fmt: skip

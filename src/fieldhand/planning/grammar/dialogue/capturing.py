@@ -69,7 +69,7 @@ from fieldhand.planning.grammar.meaning import (
 )
 from fieldhand.planning.grammar.places.compass import AWAY_FROM
 from fieldhand.planning.grammar.places.numbered import ids_of
-from fieldhand.planning.grammar.places.sampling import bare_points
+from fieldhand.planning.grammar.places.sampling import bare_points, bare_zone, is_keep_out
 from fieldhand.planning.selections import (
     AREAS,
     anchors,
@@ -152,6 +152,7 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
         raise NotComposed(
             message("it is not clear whether each of those is meant, or each tree of the site", context="fault")
         )
+    refuse_keep_out(setting, place)
     place, things = fitted(setting, place, things, command.relation, command.used)
     if state.where is not None and any(one.more and (one.count or 0) > 1 for one in command.things):
         place = replace(place, selector=drawn_like(place.selector, state.where.selector))
@@ -159,6 +160,19 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
         return capture_once(state, replace(command, things=things), place, said, at_said)
     state = replace(state, loop=None)
     return _capture_at_each(setting, state, replace(command, things=things), place, said, at_said)
+
+
+def refuse_keep_out(setting: Setting, place: PlaceMeaning) -> None:
+    """Refuse an area into which the robot cannot drive; "at the pond", another reading, is at its edge.
+
+    Raises:
+        NotComposed: Ground that the robot cannot enter is among the areas.
+    """
+    areas = place.selector.members if place.shape == "area" and place.per is None else ()
+    for area in areas:
+        name = bare_zone(area, setting.site)
+        if name and is_keep_out(area, setting.site):
+            raise NotComposed(message("{name} is a keep-out zone", name=name), advice=message("say 'at its edge'"))
 
 
 def is_across_each(state: DialogueState, place: PlaceMeaning | None) -> bool:

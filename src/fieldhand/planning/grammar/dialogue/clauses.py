@@ -210,6 +210,8 @@ def _ended(setting: Setting, state: DialogueState) -> DialogueState:
         return replace(state, nominal="stay" if stays else None, nominal_said=state.plan.steps[-1].said)
     if state.nominal is None and state.returned and state.plan.steps[-1].only_drives:
         return replace(state, nominal="stay")
+    if state.nominal is None and state.returned and _returns_in_a_case(state.plan.steps[-1]):
+        return _ended_in_case(replace(state, nominal="stay"))  # "if it is wet, mow, otherwise return to the charger"
     return state
 
 
@@ -233,6 +235,11 @@ def _without_idle(state: DialogueState) -> DialogueState:
         return state
     state = with_joints(state, tuple(span for node in idle for span in node.said))
     return replace(state, plan=without_idle_cases(state.plan))
+
+
+def _returns_in_a_case(step: p.Node) -> bool:
+    """Return True for a choice of which one case ends with a drive."""
+    return step.is_choice and any(case.children and case.children[-1].only_drives for case in step.children)
 
 
 def _ended_in_case(state: DialogueState) -> DialogueState:

@@ -375,6 +375,23 @@ def best_of_each_kind(some: PlaceMeaning, kinds: tuple[Lex, int], site: Site) ->
 
 
 @construction(
+    "place: n=count [random=RANDOM] TREE OF EACH crop=ATTRVAL kind=ATTR",
+    "place: n=count [random=RANDOM] TREE FROM EACH crop=ATTRVAL kind=ATTR",
+    cost=0.2, given=("site",),
+)  # fmt: skip
+def so_many_of_each_kind_of_crop(
+    n: int, crop: Lex, kind: Lex, site: Site, random: Lex | None = None
+) -> list[PlaceMeaning] | None:
+    """Compose "two plants of each tomato cultivar"."""
+    made: list[PlaceMeaning] = []
+    for name, value in crop.value:
+        if name not in kind.value:
+            inner = Nominal(s.Where(attribute=name, test="eq", value=value), plural=True)
+            made += so_many_of_each_kind(n, inner, site, (kind, 0), random=random) or []
+    return made or None
+
+
+@construction(
     "place: n=count [random=RANDOM] inner=nominal PER kind=ATTR",
     "place: n=count [random=RANDOM] inner=nominal OF kinds=each_kind",
     "place: n=count [random=RANDOM] inner=nominal FOR kinds=each_kind",

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import PlaceMeaning
-from fieldhand.planning.grammar.places.sampling import bare_points
+from fieldhand.planning.grammar.places.sampling import bare_points, is_keep_out
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -34,6 +34,8 @@ def spot_item(place: PlaceMeaning, site: Site, word: str = "at") -> SpotList | N
         return None
     if place.shape == "one" and place.selector.single and not place.selector.relative:
         return SpotList((place.selector,))
+    if is_keep_out(place.selector, site):
+        return None  # "at the pond": at its edge
     free = bare_points(place.selector, site, 1) if place.shape == "area" else None
     return None if free is None else SpotList((free,), (place.selector,))
 
