@@ -181,14 +181,18 @@ def stretches_of(
         while len(kept) >= _KEPT:
             del kept[next(iter(kept))]
         try:
-            if node.mode == "area":
-                units = _area(node, site, robot, drives, context, end).units
+            if rounds_side_by_side(node, robot):
+                done = _rounds(node, site, robot, drives, context, here, end)
             else:
-                units = _units(node, places, site, robot, drives, context)
+                if node.mode == "area":
+                    units = _area(node, site, robot, drives, context, end).units
+                else:
+                    units = _units(node, places, site, robot, drives, context)
+                once = in_order(drives, units, here, end, given=node.order == "given" or node.mode == "area")
+                done = _laps(once, node.laps)
         except PlaceError as error:
             raise visit_order.at_node(error, node) from error
-        once = in_order(drives, units, here, end, given=node.order == "given" or node.mode == "area")
-        kept[key] = (drives, _laps(once, node.laps))
+        kept[key] = (drives, done)
     found: tuple[Stretch, ...] = kept[key][1]
     return found
 
@@ -213,10 +217,40 @@ def _area(
     return area_work(drives, ground, width_m, here, home, bearing_deg=bearing)
 
 
+def rounds_side_by_side(node: WorkAlong, robot: RobotProfile) -> bool:
+    """Return True for several rounds along an edge with an implement that covers ground: each is beside the last."""
+    implement = implement_of(node, robot)
+    return node.mode == "perimeter" and node.laps > 1 and implement is not None and implement.covers
+
+
+def _rounds(
+    node: WorkAlong, site: Site, robot: RobotProfile, drives: Drives, context: Context, here: XY, end: XY | None
+) -> tuple[Stretch, ...]:
+    """Return the stretches of rounds along an edge, each farther from it than the one before by the working width.
+
+    Raises:
+        PlaceError: There is no room for so many.
+    """
+    implement = implement_of(node, robot)
+    width = 0.0 if implement is None or implement.width_m is None else implement.width_m
+    found: list[Stretch] = []
+    for lap in range(node.laps):
+        units = _perimeter(node, site, robot, drives, context, from_edge_m=lap * width)
+        last = end if lap == node.laps - 1 else None
+        done = in_order(drives, units, found[-1].end if found else here, last, given=node.order == "given")
+        found += done if lap == 0 else _named_by_lap(done, lap + 1)
+    return tuple(found)
+
+
 def _perimeter(
-    node: WorkAlong, site: Site, robot: RobotProfile, drives: Drives, context: Context
+    node: WorkAlong, site: Site, robot: RobotProfile, drives: Drives, context: Context, *, from_edge_m: float = 0.0
 ) -> tuple[WorkUnit, ...]:
-    """Return the work of a node along the edge of its area: outside around keep-outs and trees, else inside."""
+    """Return the work of a node along the edge of its area: outside around keep-outs and trees, else inside.
+
+    Args:
+        node, site, robot, drives, context: As of :func:`stretches_of`.
+        from_edge_m: Width of the ground along the edge that is done already.
+    """
     implement = implement_of(node, robot)
     width = None if implement is None else implement.width_m
     ground = node.along.ground(Resolution(site, context))
@@ -228,6 +262,7 @@ def _perimeter(
         drives,
         ground,
         0.0 if width is None else width / 2.0,
+        from_edge_m=from_edge_m,
         outside=outside,
         mounted="both" if implement is None else implement.side,
     )
@@ -256,11 +291,15 @@ def _laps(stretches: tuple[Stretch, ...], laps: int) -> tuple[Stretch, ...]:
     """Return the stretches as often as wanted; each further lap has names of its own."""
     found = list(stretches)
     for lap in range(2, laps + 1):
-        found += [
-            replace(s, name=message("{stretch}, lap {number}", context="log", stretch=s.name, number=lap))
-            for s in stretches
-        ]
+        found += _named_by_lap(stretches, lap)
     return tuple(found)
+
+
+def _named_by_lap(stretches: Sequence[Stretch], lap: int) -> list[Stretch]:
+    return [
+        replace(s, name=message("{stretch}, lap {number}", context="log", stretch=s.name, number=lap))
+        for s in stretches
+    ]
 
 
 def _point(xy: tuple[float, float], name: str, site: Site) -> Place:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from fieldhand.forecast.working import amount_of, implement_of
+from fieldhand.forecast.working import amount_of, implement_of, rounds_side_by_side
 from fieldhand.language import Message, counted, joined, labelled, message
 from fieldhand.language.words import COMPASS, listed, say_action, say_number, say_quantity, say_rounded
 from fieldhand.places.selector import Selector
@@ -52,7 +52,9 @@ def say_work(node: WorkAlong, robot: RobotProfile, names: Mapping[str, str]) -> 
         more.append(lanes[node.heading == "east_west"])
     elif node.heading != "any":
         more.append(message("driving to the {side}", side=COMPASS[node.heading]))
-    if node.laps > 1:
+    if rounds_side_by_side(node, robot):
+        more.append(message("{count} rounds side by side", count=node.laps))
+    elif node.laps > 1:
         more.append(message("{count} times", count=node.laps, context="laps"))
     if node.gaps == "on" and node.mode == "rows":
         more.append(message("without a break in gaps"))

@@ -173,7 +173,13 @@ def _drivable(drives: Drives, name: str, points: Sequence[XY]) -> Iterator[Stret
 
 
 def perimeter_units(
-    drives: Drives, ground: BaseGeometry, inset_m: float, *, outside: bool, mounted: MountedSide
+    drives: Drives,
+    ground: BaseGeometry,
+    inset_m: float,
+    *,
+    outside: bool,
+    mounted: MountedSide,
+    from_edge_m: float = 0.0,
 ) -> tuple[WorkUnit, ...]:
     """Return the work along the edge of an area, clockwise unless the implement works to the left.
 
@@ -184,11 +190,12 @@ def perimeter_units(
         outside: True to drive around the area, outside of it.
         mounted: Side of the robot on which the implement works; it faces the area that is driven around, and the edge
             of an area that is driven along inside.
+        from_edge_m: Distance by which the drive is farther from the edge than the first round.
 
     Raises:
         PlaceError: The robot cannot drive along the edge.
     """
-    inset = max(inset_m, drives.clearance_m) + _EDGE_M
+    inset = max(inset_m, drives.clearance_m) + _EDGE_M + from_edge_m
     edge = ground.buffer(inset + _OUTSIDE_M, quad_segs=4) if outside else ground
     area = _polygons(edge)
     rings = [] if area is None else rings_at(area, 0.0 if outside else inset, holes=False)
