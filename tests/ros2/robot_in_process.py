@@ -163,6 +163,14 @@ class Meeting:
         )
 
 
+def _await_one_robot(node: DdsTransport, bound: Ros2Bindings) -> None:
+    """Wait until a robot that was killed before is no longer seen, which takes its lease whatever the clock says."""
+    name = bound.whole_name(bound.navigation.action)
+    client = node.client(f"{name}/_action/send_goal", f"{bound.navigation.type}_SendGoal")
+    until(lambda: client.servers() == 1)
+    client.close()
+
+
 @contextmanager
 def connected_simulated_robot(
     site: str, robot: str, task: Task, *, seed: int, tick_s: float, world: Mapping[str, Any] = {}
@@ -176,6 +184,7 @@ def connected_simulated_robot(
         known = Interfaces.of(bound.distro, bound.interfaces)
         node = open_dds(known)
         clock = Lockstep(far, node, tick_s)
+        _await_one_robot(node, bound)
         driver = Ros2Driver.connect(
             node,
             known,

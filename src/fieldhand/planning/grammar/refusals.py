@@ -181,8 +181,8 @@ def _code_of_tree(words: Sequence[Word], k: int, site: Site) -> Reason | None:
 
 
 def _shape_of(code: str) -> str:
-    """Return how a code is written: its signs, "0" for digits and "a" for letters."""
-    return re.sub(r"[^\W\d_]+", "a", re.sub(r"\d+", "0", code))
+    """Return how a code is written: its letters and signs, with "0" for digits."""
+    return re.sub(r"\d+", "0", code.lower())
 
 
 def _unmeasured(words: Sequence[Word], edges: Sequence[PhraseEdge], robot: RobotProfile) -> Iterator[Reason]:
