@@ -145,13 +145,15 @@ def _unknown(
     known = {k for edge in edges for k in range(edge.start, edge.end)} | fillers
     rows = {edge.end for edge in edges if edge.category == "ROW"}
     strange: list[int] = []
+    unknown = frozenset(range(len(words))) - known
+    measured = {k for one in lacked_actions(words, unknown, robot) for k in range(one.first, one.last)}
     for k, word in enumerate(words):
         if k in known or word.kind == "stop":
             continue
         block = k > 0 and words[k - 1].norm in ("block", "blocks")
         if k in rows or block:
             yield _no_such(word, site, block=block)
-        elif (code := _code_of_tree(words, k, site)) is not None:
+        elif k not in measured and (code := _code_of_tree(words, k, site)) is not None:
             yield code
         else:
             strange.append(k)
@@ -181,8 +183,8 @@ def _code_of_tree(words: Sequence[Word], k: int, site: Site) -> Reason | None:
 
 
 def _shape_of(code: str) -> str:
-    """Return how a code is written: its letters and signs, with "0" for digits."""
-    return re.sub(r"\d+", "0", code.lower())
+    """Return how a code is written: its signs, "0" for digits and "a" for letters."""
+    return re.sub(r"[^\W\d_]+", "a", re.sub(r"\d+", "0", code))
 
 
 def _unmeasured(words: Sequence[Word], edges: Sequence[PhraseEdge], robot: RobotProfile) -> Iterator[Reason]:
