@@ -44,7 +44,8 @@ _PLANTED_FIRST = re.compile(
 
 #: Pattern of the neighbours of several trees.
 _BESIDE_THEM = re.compile(
-    r"\b(?:either|each|both) sides? of (?:it|them|these|those|each)\b|\b(?:their|its) (?:\w+ )?neighbou?rs\b"
+    r"\b(?:(?:either|each|both) sides?|left and right|right and left) of (?:it|them|these|those|each)\b"
+    r"|\b(?:their|its) (?:\w+ )?neighbou?rs\b"
     r"|\bplants? (?:\w+ )?(?:next to|beside) (?:it|them|each)\b|\bneighbou?rs? of each\b"
     r"|\b(?:trees?|vines?|ones?) (?:next to|beside|alongside) (?:it|them|each)\b"
 )
