@@ -96,3 +96,10 @@ def test_an_action_of_one_word_is_a_verb(action, count, text):
 @pytest.mark.parametrize(("items", "text"), [((), ""), (("1",), "1"), (("1", "2"), "1 and 2"), ("123", "1, 2 and 3")])
 def test_lists(items, text):
     assert words.listed(items) == text
+
+
+@pytest.mark.parametrize("name", ["{", "}", "take_{count}_pictures", "{0}"])
+def test_names_that_look_like_placeholders_are_quoted(name):
+    assert str(words.say_action(name)) == f"do “{name}”"
+    assert str(words.say_action(name, 2)) == f"do “{name}” twice"
+    assert str(words.say_captures(name, 3)) == f"3 captures of “{name}”"

@@ -219,8 +219,10 @@ def _area(
 
 def rounds_side_by_side(node: WorkAlong, robot: RobotProfile) -> bool:
     """Return True for several rounds along an edge with an implement that covers ground: each is beside the last."""
+    if node.mode != "perimeter" or node.laps < 2 or node.action not in robot.action:
+        return False
     implement = implement_of(node, robot)
-    return node.mode == "perimeter" and node.laps > 1 and implement is not None and implement.covers
+    return implement is not None and implement.covers
 
 
 def _rounds(

@@ -235,6 +235,9 @@ def listed(items: Sequence[str], last: Literal["and", "or"] = "and") -> str:
 
 def say_action(name: str, count: int = 1) -> str:
     """Return an action as a verb phrase: "take a thermal picture", "read the soil moisture twice"."""
+    if {*"{}"} & {*name}:  # no profile has such a name, but a Task may
+        once = message("do “{action}”", action=name)
+        return once if count == 1 else message("do “{action}” {times}", action=name, times=say_times(count))
     verb, _, rest = name.strip("_").partition("_")
     thing = _words(rest)
     if not thing:
@@ -247,6 +250,8 @@ def say_action(name: str, count: int = 1) -> str:
 
 def say_captures(name: str, count: int) -> str:
     """Return the counted results of an action: "3 thermal pictures", "1 reading of CO₂"."""
+    if {*"{}"} & {*name}:
+        return counted("{count} capture of “{name}”", "{count} captures of “{name}”", count, name=name)
     verb, _, rest = name.strip("_").partition("_")
     thing = _words(rest) or _words(verb)
     one, many = (f"{thing} reading", f"{thing} readings") if verb in _READING_VERBS else (thing, plural(thing))

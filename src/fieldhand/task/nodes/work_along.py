@@ -45,8 +45,7 @@ class WorkAlong(PlanNode):
         every: With ``aisles``, 2 for every second aisle.
         heading: With ``area``, ``north_south`` or ``east_west`` for the direction of its lanes. With ``rows`` and
             ``aisles``, the side of the compass towards which each of them is driven.
-        laps: Times that the whole is done. Along an edge with an action that covers ground the rounds lie side by side,
-            each farther from the edge by the working width.
+        laps: Times that the whole is done.
         gaps: ``on`` to keep the action on in gaps of a row.
         order: ``best`` for short drives between stretches; ``given`` for the selector's order.
         optional: Stretches may be dropped to keep the budget ("as much as you can").
