@@ -114,10 +114,11 @@ def _spelling(tree: str) -> re.Pattern[str]:
 def _codes(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
     """Yield ids with letters that the request names and the plan lacks ("N250, N300 and N2")."""
     named = {tree.lower() for _, tree in plan.trees}
-    if not named or _CODE_RANGE.search(facts.text.replace(" - ", "-")):
+    codes = dict.fromkeys(re.findall(r"[a-z]+\d+(?:-\d+)?", facts.text))
+    if not codes or not named or _CODE_RANGE.search(facts.text.replace(" - ", "-")):
         return
     ids = {tree.place.id.lower(): tree.place.id for tree in site.trees if not tree.place.id.isdigit()}
-    for code in dict.fromkeys(re.findall(r"[a-z]+\d+(?:-\d+)?", facts.text)):
+    for code in codes:
         if code in ids and code not in named:
             what = message("the request names tree {number}, but the plan does not", number=ids[code])
             yield PlanMismatch(kind="place", what=what)

@@ -252,7 +252,7 @@ def _connected(drives: Drives, at: Points, ways: Ways) -> tuple[Points, Ways]:
             k = int(np.argmin(metres[:, 0]))
             one, two = nodes[k], first[int(nearest[k, 0])]
             way = layout.way(spots[one], spots[two])
-            if way is None:  # pragma: no cover  they lie on connected ground
+            if way is None:  # pragma: no cover  not seen on connected ground; the parts then stay apart
                 continue
             chain = [one, *range(len(more_at), len(more_at) + len(way) - 2), two]
             more_at += [list(corner) for corner in way[1:-1]]

@@ -69,7 +69,7 @@ class DriveFails:
 
 @dataclass(frozen=True, kw_only=True)
 class RobotStrays:
-    """In the middle of a drive to a tree, or of any drive, the robot leaves its way by ``by_m`` metres, and comes back.
+    """The robot leaves its way by ``by_m`` metres in the middle of a drive to a tree, or of any drive, and comes back.
 
     It strays to the right, seen in the direction of travel; to the left if negative.
     """
