@@ -143,7 +143,7 @@ class OptionalWords:
 
     def _phrase_ends(self, last: int) -> Sequence[int]:
         """Return the numbers behind the words with which a phrase may end that contains a word."""
-        ends = []
+        ends: list[int] = []
         for end in range(last + 1, len(self.words)):
             if self.words[end].kind in ("comma", "stop"):
                 return [*ends, end]
