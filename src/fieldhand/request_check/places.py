@@ -262,13 +262,16 @@ def _areas(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
     for name in sorted(facts.zones - held - rows - beds - in_names):
         if name in w.COMPASS and w.COMPASS[name] <= pointed:
             continue  # "from the north" or "the northernmost" does not mean a block called "North"
-        if _is_line_of_lanes(name, facts, plan):
+        if _is_line_of_lanes(name, facts, plan) or _is_side_of_edge(name, facts, plan):
             continue
         if not any(name in other for other in held) and not _stands_in(plan, name, site):
             yield PlanMismatch(
                 kind="place", what=message("the request names '{name}', but the plan does not", name=name)
             )
+    whole_sites = {zone.name for zone in site.zones if zone.kind == "boundary"}
     for node, name in plan.areas:
+        if name in whole_sites and not site.trees:
+            continue  # "the four corners" are those of the site
         words = {t.text for t in _tokens(name)}
         words |= {f"{word}s" for word in words if name.rpartition(" ")[2].isdecimal()}  # "beds 2 to 6" name bed 3
         words |= {f"{word}s" for word in name.split()[:-1]}  # "the orchids" name the orchid patch
@@ -292,6 +295,12 @@ def _is_line_of_lanes(name: str, facts: RequestFacts, plan: PlanFacts) -> bool:
         rf"\b(?:parallel (?:to|with)|in line with|lined up with|line of) (?:\w+ )?{re.escape(name)}\b", facts.text
     )
     return said is not None and any(one.heading != "any" for one in plan.works)
+
+
+def _is_side_of_edge(name: str, facts: RequestFacts, plan: PlanFacts) -> bool:
+    """Return True if one side of an edge is worked, and the request names the area on that side: "the paddock side"."""
+    said = re.search(rf"\b{re.escape(name)}(?:'?s)? side\b", facts.text)
+    return said is not None and any(one.mode == "perimeter" and one.sides not in ("one", "both") for one in plan.works)
 
 
 def _is_a_row_of(name: str, plan: PlanFacts) -> bool:
@@ -389,6 +398,7 @@ def _sides(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
     )
     headings = [work.heading for work in plan.works if work.heading != "any"]
     held |= {side for side in spoken if any(_runs_along(heading, side) for heading in headings)}
+    held |= {work.sides for work in plan.works}
     if not any(x.counts_from_a_side for _, x in plan.selectors):
         for side in sorted(spoken - held):
             yield PlanMismatch(

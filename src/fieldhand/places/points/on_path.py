@@ -23,6 +23,7 @@ from fieldhand.places.points.free_ground import (
     area_called,
     free_part,
     free_points,
+    nearest_free,
     part_of_area,
     segments,
 )
@@ -38,9 +39,6 @@ Floats = NDArray[np.float64]
 
 #: Distance in metres of points along an edge from it.
 _OFF_EDGE_M = 1.5
-
-#: Distance in metres within which a point of an edge is moved to free ground.
-_NEAR_M = 100.0
 
 #: Maximum number of legs of a zigzag.
 MOST_LEGS = 200
@@ -117,14 +115,10 @@ def _beside_edge(site: Site, xy: Floats, selector: Transect) -> Floats:
 
     At a spacing, those that would move by more than half of it are left out: an edge outside of the boundary has none.
     """
-    (west, south), (east, north) = xy.min(axis=0) - _NEAR_M, xy.max(axis=0) + _NEAR_M
-    free = free_part(site, shapely.box(west, south, east, north))
-    points = shapely.points(xy)
-    ends = shapely.get_coordinates(shapely.shortest_line(points, free)).reshape(-1, 2, 2)
-    moved = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+    free = nearest_free(site, xy)
+    moved = np.hypot(*(free - xy).T)
     near = moved <= selector.apart_m / 2.0 if selector.apart_m else np.ones(len(xy), dtype=bool)
-    stands: Floats = ends[near, 1]
-    return stands
+    return free[near]
 
 
 def _edge(site: Site, zone: str) -> list[LineString]:

@@ -31,8 +31,8 @@ PathShape = Literal["zigzag", "z", "x", "edge"]
 class Transect(FromGroup):
     """``count`` trees of ``of`` nearest to equally spaced points, or to points ``apart_m`` metres apart, of a path
     across it: a ``zigzag`` of ``legs`` (4 are a W, 1 is a diagonal), a ``z`` or an ``x``. With ``zone`` (``part``),
-    free points there; without trees, on the whole site. Along an ``edge``, always free points: inside the edge,
-    outside that of a keep-out."""
+    free points there; without trees, on the whole site. Along an ``edge``, free points inside of it,
+    outside of a keep-out."""
 
     count: int = 0
     apart_m: float = 0.0
@@ -74,7 +74,10 @@ class Transect(FromGroup):
         over = say_area(self.zone, self.part) if self.on_ground else group.group()
         if self.apart_m:
             text = message(
-                "every {metres} m along {path} across {area}", metres=say_number(self.apart_m), path=path, area=over
+                "the points every {metres} m along {path} across {area}",
+                metres=say_number(self.apart_m),
+                path=path,
+                area=over,
             )
             return many(text)
         if self.on_ground:
@@ -88,7 +91,9 @@ class Transect(FromGroup):
         area = say_zone(self.zone) if self.zone else message("the whole site")
         if self.apart_m:
             return many(
-                message("every {metres} m along the edge of {area}", metres=say_number(self.apart_m), area=area)
+                message(
+                    "the points every {metres} m along the edge of {area}", metres=say_number(self.apart_m), area=area
+                )
             )
         points = counted("{count} point", "{count} points", self.count)
         text = message("{points} along the edge of {area}", points=points, area=area)

@@ -86,8 +86,8 @@ def part_of_fence(fence: s.Selector, site: Site) -> Impossible | None:
     if not is_keep_out(fence, site):
         return None
     return Impossible(
-        message("an edge is worked all the way round, not in parts, and in no direction that can be said"),
-        message("say 'film along the fence' without its ends"),
+        message("an edge is worked all the way round, or along one side of it"),
+        message("say the side: 'film the west side of the fence from south to north'"),
     )
 
 
@@ -121,10 +121,9 @@ def nothing_between(low: Lex | Amount, high: Lex | Amount) -> Impossible | None:
 
 @construction("FROM TREEID range_to TREEID", "BETWEEN TREEID AND TREEID")
 def part_of_a_row() -> Impossible:
-    """Compose "from G4-03 to G4-13" behind work along a row."""
+    """Compose "from G4-03 to H2-13" behind work along a row."""
     return Impossible(
-        message("work along a row is done along the whole row: a part of it cannot be said yet"),
-        message("name the row: 'spray row 4'"),
+        message("these two trees do not stand in one row"), message("name two trees of one row, or the rows")
     )
 
 
@@ -268,9 +267,6 @@ def work_at_places(where: PlaceMeaning) -> Impossible | None:
     """Compose "spray tree 4"."""
     if where.shape == "area":
         return None
-    several = len(where.selector.members) > 2
-    if several or any(isinstance(part, s.Rows) for part in where.selector.walk()):
-        return part_of_a_row()  # "spray row 4 from G4-03 to G4-13"
     return Impossible(
         message("this is done while driving along a path, not at single trees"),
         message("say along which rows, between which rows, or over which area"),

@@ -16,6 +16,7 @@ from fieldhand.planning.grammar.commands import (
     counting,
     driving,
     earlier,
+    edge_sides,
     energy,
     events,
     exclusions,
@@ -28,6 +29,7 @@ from fieldhand.planning.grammar.commands import (
     parameters,
     reported,
     requests,
+    row_parts,
     sampling,
     sides,
     slow,
@@ -47,8 +49,8 @@ GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
     exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, earlier,
-    work_wanted, laps, headings, asked, left_standing, to_and_fro, work_sequel, at_edges, bringing,
-    reported, further_work, counting, which_of_two, asked_places,
+    work_wanted, laps, headings, edge_sides, row_parts, asked, left_standing, to_and_fro, work_sequel, at_edges,
+    bringing, reported, further_work, counting, which_of_two, asked_places,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

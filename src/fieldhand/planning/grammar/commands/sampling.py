@@ -8,6 +8,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Adjunct, once
 from fieldhand.planning.grammar.meaning import CaptureCommand, LinkedCommand, PaceClause, PlaceMeaning, Said, Thing
+from fieldhand.planning.grammar.places.lines import SamplingLine
 from fieldhand.planning.grammar.places.points import Points, points_on
 from fieldhand.planning.grammar.places.sampling import (
     SamplingPath,
@@ -24,12 +25,15 @@ from fieldhand.site.model import Site
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
+#: A path, or a straight line, and the area that it crosses; None for the place of the command, or the site.
+SamplingWay = tuple[SamplingPath | SamplingLine, s.Selector | None]
+
 
 @dataclass(frozen=True, slots=True)
 class _Route:
     """A path and the area that it crosses; None for the place of the command, or the site."""
 
-    path: SamplingPath
+    path: SamplingPath | SamplingLine
     where: s.Selector | None
     site: Site = field(compare=False)
 
@@ -95,14 +99,18 @@ def _at(command: CaptureCommand, selector: s.Selector | None, count: int | None)
 
 
 @construction("adjunct: along=path_over", cost=0.2, given=("site",))
-def along_path(along: tuple[SamplingPath, s.Selector | None], site: Site) -> Adjunct:
+def along_path(along: SamplingWay, site: Site) -> Adjunct:
     """Compose "in a W through the north block", of so many samples."""
     return Adjunct(_along, _Route(*along, site), may_lead=True, late=True, lays_out=True)
 
 
 @construction("said: along=path_over [COMMA] how=pace [COMMA] AND act=capture", cost=0.3, given=("site",))
 def round_at_pace(
-    along: tuple[SamplingPath, s.Selector | None], how: PaceClause, act: CaptureCommand, used: int, site: Site
+    along: SamplingWay,
+    how: PaceClause,
+    act: CaptureCommand,
+    used: int,
+    site: Site,
 ) -> Said | None:
     """Compose "circle the pond at 0.5 m/s and take a picture every 10 m"."""
     made = _along(act, _Route(*along, site))
@@ -146,10 +154,10 @@ def each_way(every: float, site: Site) -> Adjunct:
     cost=0.1,
 )
 def walked(
-    along: tuple[SamplingPath, s.Selector | None] | None = None,
+    along: SamplingWay | None = None,
     path: SamplingPath | None = None,
     where: s.Selector | None = None,
-) -> tuple[SamplingPath, s.Selector | None] | None:
+) -> SamplingWay | None:
     """Compose "cross the meadow in an X" before what is done on the way."""
     return along if path is None else (path, where)
 
@@ -165,7 +173,11 @@ def walked(
     given=("site",),
 )
 def captured_on_the_way(
-    on: tuple[SamplingPath, s.Selector | None], things: tuple[Thing, ...], used: int, site: Site, n: int = 0
+    on: SamplingWay,
+    things: tuple[Thing, ...],
+    used: int,
+    site: Site,
+    n: int = 0,
 ) -> CaptureCommand | None:
     """Compose "walk the slope in a W and read nitrate at fifteen stops on the way"."""
     path, where = on
@@ -350,7 +362,7 @@ def laid_along_path(
     site: Site,
     path: SamplingPath | None = None,
     where: s.Selector | None = None,
-    on: tuple[SamplingPath, s.Selector | None] | None = None,
+    on: SamplingWay | None = None,
 ) -> PlaceMeaning | None:
     """Compose "lay a W with twelve points over the slope"."""
     route, over_what = on if on is not None else (path, where)

@@ -1,4 +1,4 @@
-"""Points of ground without plants, and the same points of other ground: "do the same on the slope"."""
+"""Points of ground without plants, the same points of other ground ("do the same on the slope"), and its corners."""
 
 from __future__ import annotations
 
@@ -6,6 +6,9 @@ from dataclasses import replace
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.plans import with_selector
+from fieldhand.planning.grammar.places.sampling import bare_zone
+from fieldhand.planning.selections import as_corners, swapped
+from fieldhand.site.model import Site
 from fieldhand.task import plan as p
 
 
@@ -35,3 +38,29 @@ def on_ground(step: p.Node, zone: str) -> p.Node:
 
 def _in_zone(points: s.Selector, zone: str) -> s.Selector:
     return replace(points, zone=zone) if isinstance(points, s.PointsIn | s.Transect | s.Grid) else points
+
+
+def with_bare_corners(step: p.Node, site: Site) -> p.Node:
+    """Return a step at the corners of ground itself where a selector means those of ground without plants."""
+    if step.act is not None:
+        return step.act if step.act.at is None else replace(step.act, at=_in_bare_corners(step.act.at, site))
+    if step.selector is not None:
+        step = with_selector(step, _in_bare_corners(step.selector, site))
+    return step.with_children([with_bare_corners(child, site) for child in step.children])
+
+
+def _in_bare_corners(places: s.Selector, site: Site) -> s.Selector:
+    for part in tuple(places.walk()):
+        corners = as_corners(part)
+        zone = "" if corners is None or corners.zone else _bare_ground(corners.of, site)
+        if corners is not None and zone:
+            places = swapped(places, part, s.Corners(which=corners.which, zone=zone))
+    return places
+
+
+def _bare_ground(area: s.Selector, site: Site) -> str:
+    """Return the name of ground without plants; empty for other places."""
+    if area != s.Trees():
+        return bare_zone(area, site)
+    bounds = [zone.name for zone in site.zones_of("boundary")]
+    return bounds[0] if not site.trees and len(bounds) == 1 else ""
