@@ -152,6 +152,7 @@ def _rows(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
         return
     counted_there = _counts_rows_of_area(facts, plan)
     ranks = {rank for _, row in rows for rank in _ranks(row.first, site)} if counted_there else set()
+    ranks |= {int(row.first) + step for _, row in rows for step in (-1, 1) if _is_aisle_of(row, plan)}
     for amount in facts.amounts:
         if int(amount.values[0]) in ranks or not _is_row(facts, amount) or _of_named_tree(facts, plan, amount):
             continue
@@ -174,6 +175,11 @@ def _rows(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
                     what=message("the plan names row {name}, but the request does not", name=name),
                     node=node,
                 )
+
+
+def _is_aisle_of(row: s.Rows, plan: PlanFacts) -> bool:
+    """Return True if a place of the plan is in the aisle beside a row."""
+    return any(row in x.walk() for _, x in plan.having(s.Beside))
 
 
 def _counts_rows_of_area(facts: RequestFacts, plan: PlanFacts) -> bool:
@@ -389,6 +395,7 @@ def _sides(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
     )
     headings = [work.heading for work in plan.works if work.heading != "any"]
     held |= {side for side in spoken if any(_runs_along(heading, side) for heading in headings)}
+    held |= {work.sides for work in plan.works}
     if not any(x.counts_from_a_side for _, x in plan.selectors):
         for side in sorted(spoken - held):
             yield PlanMismatch(
@@ -419,7 +426,7 @@ def _sides(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
 def _attributes(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
     """Yield attribute values of the request that the plan lacks, and the reverse."""
     held = {" ".join(t.text for t in _tokens(str(value))) for _, _, value in plan.values}
-    for name in {x.first for _, x in plan.having(s.Rows) if isinstance(x, s.Rows) and x.first}:
+    for name in {end for _, x in plan.having(s.Rows) if isinstance(x, s.Rows) for end in (x.first, x.last) if end}:
         held |= _values_in_row(name, site, shared=True)
     for tree in {tree for _, tree in plan.trees if tree in site.by_id}:
         held |= {_name_text(str(value)) for value in site.by_id[tree].properties.values()}
