@@ -59,13 +59,22 @@ def test_aisles_and_sides_of_rows_are_worked(site: Site, request_: str, plan: st
 
 
 CAPTURED = [
-    (GLASS, HUSKY, "Read CO2 in the middle of the aisle between rows 1 and 2.", "co2 @ Beside(north, of Middle(of Rows(1, 1)))"),
-    (GLASS, HUSKY, "Read CO2 halfway along the aisle of the mild bay.", "co2 @ Beside(north, of Middle(of InZone(mild bay, of Rows(3, 3))))"),
+    (
+        GLASS, HUSKY, "Read CO2 in the middle of the aisle between rows 1 and 2.",
+        "co2 @ Beside(north, of Middle(of Rows(1, 1)))",
+    ),
+    (
+        GLASS, HUSKY, "Read CO2 halfway along the aisle of the mild bay.",
+        "co2 @ Beside(north, of Middle(of InZone(mild bay, of Rows(3, 3))))",
+    ),
     (
         DEMO, HUSKY, "read CO2 in the middle of the aisles between rows 3 and 5",
         "for UnionOf(Beside(east, of Middle(of Rows(3, 3)))+Beside(east, of Middle(of Rows(4, 4)))): [co2]",
     ),
-    (GARDEN, AMIGA, "Take pictures of the kale from the west side.", "for Beside(west, of Where(crop, eq, kale)): [picture]"),
+    (
+        GARDEN, AMIGA, "Take pictures of the kale from the west side.",
+        "for Beside(west, of Where(crop, eq, kale)): [picture]",
+    ),
 ]  # fmt: skip
 
 

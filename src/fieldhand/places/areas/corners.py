@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from fieldhand.language import message
-from fieldhand.language.words import CORNERS, listed
+from fieldhand.language.words import CORNERS, listed, say_zone
 from fieldhand.places.areas.area_words import sides_of_corners
 from fieldhand.places.count_range import CountRange, exactly
 from fieldhand.places.noun_phrase import NounPhrase, many, one
@@ -25,14 +25,22 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Corners(FromGroup):
-    """The tree nearest to each named corner of the smallest-area enclosing rectangle of ``of``; all four by default."""
+    """The tree nearest to each corner of the rectangle around ``of``, or corners of ``zone``."""
 
     which: tuple[CornerName, ...] = ("nw", "ne", "se", "sw")
+    zone: str = ""
     of: Selector = Trees()
 
     @classmethod
     def example(cls, site: Site) -> Corners:
         return cls()
+
+    def resolve(self, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
+        from fieldhand.places.points.on_path import corner_points
+
+        if not self.zone:
+            return super().resolve(resolution, notes)
+        return corner_points(resolution.site, self.zone, self.which, notes)
 
     def choose(self, of: PlaceGroup, resolution: Resolution, notes: ResolutionNotes) -> PlaceGroup:
         from fieldhand.places.areas.extent import corners
@@ -43,6 +51,8 @@ class Corners(FromGroup):
         return corners(of, self.which, resolution.reference(self.of, of, picks_too=False))
 
     def phrase(self, wording: SelectorWording) -> NounPhrase:
+        if self.zone:
+            return self._of_zone()
         group = wording.phrase(self.of)
         of = "" if group.plain else message("of {trees}", trees=group.group())
         if len(self.which) == 1:
@@ -53,13 +63,21 @@ class Corners(FromGroup):
         named_corners = listed([CORNERS[name] for name in self.which])
         return many(message("the {north_west} corner trees {of_trees}", north_west=named_corners, of_trees=of))
 
+    def _of_zone(self) -> NounPhrase:
+        zone, names = say_zone(self.zone), [CORNERS[name] for name in self.which]
+        if len(names) == 1:
+            return one(message("the {north_west} corner of {zone}", north_west=names[0], zone=zone))
+        if set(self.which) == set(CORNERS):
+            return many(message("the 4 corners of {zone}", zone=zone))
+        return many(message("the {north_west} corners of {zone}", north_west=listed(names), zone=zone))
+
     @property
     def keeps_order(self) -> bool:
         return True
 
     def aside(self, phrase: str) -> str:
         """Return "north-west corner"."""
-        if self.single and self.of == Trees():
+        if self.single and self.of == Trees() and not self.zone:
             return message("{north_west} corner", north_west=CORNERS[self.which[0]])
         return phrase
 

@@ -15,7 +15,7 @@ from shapely.ops import unary_union
 from fieldhand import language
 from fieldhand.errors import PlaceError
 from fieldhand.language import message
-from fieldhand.language.words import say_rounded
+from fieldhand.language.words import CORNERS, say_rounded
 from fieldhand.places.place_errors import too_few
 from fieldhand.places.place_group import PlaceGroup
 from fieldhand.places.points.free_ground import (
@@ -30,6 +30,7 @@ from fieldhand.places.resolution_notes import ResolutionNotes
 from fieldhand.site.feature_kinds import phrase
 from fieldhand.site.model import Site
 from fieldhand.site.rectangle import named_corners, smallest_rectangle
+from fieldhand.terms import CornerName
 
 if TYPE_CHECKING:
     from fieldhand.places.points.transect import Transect
@@ -112,19 +113,45 @@ def points_on_path(site: Site, selector: Transect, notes: ResolutionNotes) -> Pl
     return free_points(site, xy, names)
 
 
+def corner_points(site: Site, zone: str, which: Sequence[CornerName], notes: ResolutionNotes) -> PlaceGroup:
+    """Return the free points on the edge of a zone nearest to corners of its smallest-area rectangle.
+
+    Raises:
+        PlaceError: There is no such zone, or no space in it.
+    """
+    path = _edge(site, zone)
+    if not path:
+        raise PlaceError(
+            message("there is no free ground along that path"),
+            where=site.name,
+            advice=message("all of it is inside keep-outs or outside the boundary"),
+        )
+    edge = unary_union(path)
+    corners = named_corners(smallest_rectangle(shapely.get_coordinates(edge)))
+    ends = shapely.shortest_line(edge, shapely.points([corners[name] for name in which]))
+    xy = _on_free_ground(site, shapely.get_coordinates(ends)[::2])[1]
+    notes.rule = "corners are those of the smallest rectangle around the ground"
+    names = [message("the {north_west} corner of {zone}", north_west=CORNERS[c], zone=zone) for c in which]
+    return free_points(site, xy, names)
+
+
 def _beside_edge(site: Site, xy: Floats, selector: Transect) -> Floats:
     """Return points along an edge, those that are not free moved to the nearest free ground.
 
     At a spacing, those that would move by more than half of it are left out: an edge outside of the boundary has none.
     """
+    moved, stands = _on_free_ground(site, xy)
+    near = moved <= selector.apart_m / 2.0 if selector.apart_m else np.ones(len(xy), dtype=bool)
+    return stands[near]
+
+
+def _on_free_ground(site: Site, xy: Floats) -> tuple[Floats, Floats]:
+    """Return the nearest free ground of each point, behind its distance."""
     (west, south), (east, north) = xy.min(axis=0) - _NEAR_M, xy.max(axis=0) + _NEAR_M
     free = free_part(site, shapely.box(west, south, east, north))
     points = shapely.points(xy)
     ends = shapely.get_coordinates(shapely.shortest_line(points, free)).reshape(-1, 2, 2)
-    moved = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
-    near = moved <= selector.apart_m / 2.0 if selector.apart_m else np.ones(len(xy), dtype=bool)
-    stands: Floats = ends[near, 1]
-    return stands
+    return np.hypot(*(ends[:, 1] - ends[:, 0]).T), ends[:, 1]
 
 
 def _edge(site: Site, zone: str) -> list[LineString]:

@@ -164,7 +164,7 @@ def _run_east_west(selector: s.Selector, site: Site) -> set[bool]:
 
 def across_rows(selector: s.Selector, site: Site) -> set[TreeSide]:
     """Return the sides of rows, or of all plants of some, if they run the same way; empty for other places."""
-    if not are_rows(selector) and rows_out_of(selector, site) is None:
+    if not are_rows(selector) and (s.Trees() in selector.members or rows_out_of(selector, site) is None):
         return set()
     ways = _run_east_west(selector, site)
     return set() if len(ways) != 1 else {"north", "south"} if True in ways else {"east", "west"}

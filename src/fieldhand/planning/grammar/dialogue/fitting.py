@@ -11,7 +11,7 @@ from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed
 from fieldhand.planning.grammar.meaning import DriveCommand, Lead, PlaceMeaning, Thing
 from fieldhand.planning.grammar.places.areas import of_each_block
 from fieldhand.planning.grammar.places.numbered import ids_of
-from fieldhand.planning.grammar.places.sampling import bare_points, bare_zone, is_keep_out
+from fieldhand.planning.grammar.places.sampling import bare_points, bare_zone, corners_on_ground, is_keep_out
 from fieldhand.planning.grammar.row_by_row import MOST_ONE_BY_ONE, one_by_one
 from fieldhand.planning.selections import (
     AREAS,
@@ -196,6 +196,7 @@ def fitted(
     Raises:
         NotComposed: How many visits are meant is unclear.
     """
+    place = replace(place, selector=corners_on_ground(place.selector, setting.site))
     if place.each and place.shape == "several" and place.per is None:
         return place, things
     counts = {thing.count for thing in things}

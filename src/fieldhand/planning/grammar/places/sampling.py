@@ -18,6 +18,7 @@ from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
     OPEN_NUMBER,
     are_rows,
+    as_corners,
     as_excluding,
     as_some,
     as_zone,
@@ -26,6 +27,7 @@ from fieldhand.planning.selections import (
     is_one_row,
     over,
     rows_of,
+    swapped,
 )
 from fieldhand.site.model import Site
 from fieldhand.terms import AreaPart
@@ -94,6 +96,16 @@ class BareGround:
         for name in self.left_out:
             points = s.InZone(zone=name, outside=True, of=points)
         return points
+
+
+def corners_on_ground(selector: s.Selector, site: Site) -> s.Selector:
+    """Return a selector with the corners of a zone without trees in place of those of the trees there."""
+    for part in selector.walk():
+        corners = as_corners(part)
+        zone = "" if corners is None else bare_zone(corners.of, site)
+        if corners is not None and zone:
+            selector = swapped(selector, corners, replace(corners, zone=zone, of=s.Trees()))
+    return selector
 
 
 def bare_ground(area: s.Selector | None, site: Site) -> BareGround | None:
