@@ -47,6 +47,7 @@ _BESIDE_THEM = re.compile(
     r"\b(?:(?:either|each|both) sides?|left and right|right and left) of (?:it|them|these|those|each)\b"
     r"|\b(?:their|its) (?:\w+ )?neighbou?rs\b"
     r"|\bplants? (?:\w+ )?(?:next to|beside) (?:it|them|each)\b|\bneighbou?rs? of each\b"
+    r"|\band (?:\w+ ){0,3}the (?:nearest|closest) \w+"
     r"|\b(?:trees?|vines?|ones?) (?:next to|beside|alongside) (?:it|them|each)\b"
 )
 #: Pattern of a half that is named by a place near it, or by words that no map explains.

@@ -49,11 +49,13 @@ def last_thing(noun: Lex, word: Lex | None = None, n: int = 1) -> Thing | None:
 
 
 @construction(
-    "thing: [DET] noun=NOUN READING", "thing: READING OF [DET] noun=NOUN", "thing: [DET] noun=NOUN INSTRUMENT", cost=0.1
-)
-def reading_of(noun: Lex) -> Thing | None:
+    "thing: [DET] noun=NOUN word=READING", "thing: word=READING OF [DET] noun=NOUN",
+    "thing: [DET] noun=NOUN INSTRUMENT",
+    cost=0.1,
+)  # fmt: skip
+def reading_of(noun: Lex, word: Lex | None = None) -> Thing | None:
     """Compose "the temperature reading" and "the moisture probe"."""
-    return named_capture(noun)
+    return named_capture(noun, plural=word is not None and word.plural)
 
 
 @construction(

@@ -169,7 +169,7 @@ def headlands(noun: Lex) -> Tract:
 
 
 @construction(
-    "edge_line: [DET] EDGE",
+    "edge_line: [DET] edge_word",
     "edge_line: [DET] EDGE OF where=region",
     "edge_line: [DET] EDGE OF site",
     "edge_line: [DET] zone=ZONEPOSS EDGE",
