@@ -47,6 +47,7 @@ _BESIDE_THEM = re.compile(
     r"\b(?:(?:either|each|both) sides?|left and right|right and left) of (?:it|them|these|those|each)\b"
     r"|\b(?:their|its) (?:\w+ )?neighbou?rs\b"
     r"|\bplants? (?:\w+ )?(?:next to|beside) (?:it|them|each)\b|\bneighbou?rs? of each\b"
+    r"|\band (?:\w+ ){0,3}the (?:nearest|closest) \w+"
     r"|\b(?:trees?|vines?|ones?) (?:next to|beside|alongside) (?:it|them|each)\b"
 )
 #: Pattern of a half that is named by a place near it, or by words that no map explains.
@@ -152,6 +153,7 @@ def _rows(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
         return
     counted_there = _counts_rows_of_area(facts, plan)
     ranks = {rank for _, row in rows for rank in _ranks(row.first, site)} if counted_there else set()
+    ranks |= {int(row.first) + step for _, row in rows for step in (-1, 1) if _is_aisle_of(row, plan)}
     for amount in facts.amounts:
         if int(amount.values[0]) in ranks or not _is_row(facts, amount) or _of_named_tree(facts, plan, amount):
             continue
@@ -174,6 +176,11 @@ def _rows(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
                     what=message("the plan names row {name}, but the request does not", name=name),
                     node=node,
                 )
+
+
+def _is_aisle_of(row: s.Rows, plan: PlanFacts) -> bool:
+    """Return True if a place of the plan is in the aisle beside a row."""
+    return any(row in x.walk() for _, x in plan.having(s.Beside))
 
 
 def _counts_rows_of_area(facts: RequestFacts, plan: PlanFacts) -> bool:
@@ -429,7 +436,7 @@ def _sides(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
 def _attributes(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
     """Yield attribute values of the request that the plan lacks, and the reverse."""
     held = {" ".join(t.text for t in _tokens(str(value))) for _, _, value in plan.values}
-    for name in {x.first for _, x in plan.having(s.Rows) if isinstance(x, s.Rows) and x.first}:
+    for name in {end for _, x in plan.having(s.Rows) if isinstance(x, s.Rows) for end in (x.first, x.last) if end}:
         held |= _values_in_row(name, site, shared=True)
     for tree in {tree for _, tree in plan.trees if tree in site.by_id}:
         held |= {_name_text(str(value)) for value in site.by_id[tree].properties.values()}

@@ -258,7 +258,7 @@ def in_an_aisle() -> Impossible:
     """Compose "the aisle"."""
     return Impossible(
         message("an aisle is not a place where something can be done"),
-        message("say along which row, or at which trees"),
+        message("say along which row, at which trees, or 'in the middle of the aisle between rows 3 and 4'"),
     )
 
 

@@ -43,8 +43,8 @@ class WorkAlong(PlanNode):
             ``headlands``: along both ends of the rows. ``area``: all ground, lane by lane. ``perimeter``: its edge.
         sides: Sides of each row: any one, both, or one of the compass. With ``perimeter``, that side of it.
         every: With ``aisles``, 2 for every second aisle.
-        heading: With ``area``, ``north_south`` or ``east_west``: direction of its lanes. Else the side towards which each
-            row, aisle or side of an edge is driven.
+        heading: With ``area``, ``north_south`` or ``east_west``: direction of its lanes. Else the side towards which
+            each row, aisle or side of an edge is driven.
         laps: Times that the whole is done.
         gaps: ``on`` to keep the action on in gaps of a row.
         order: As of a for-each.

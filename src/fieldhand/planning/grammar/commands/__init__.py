@@ -6,6 +6,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands import (
     adjuncts,
     aggregates,
+    aisles,
     asked,
     asked_places,
     at_edges,
@@ -48,7 +49,7 @@ from fieldhand.planning.grammar.commands import (
 GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
-    exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, earlier,
+    exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, aisles, earlier,
     work_wanted, laps, headings, edge_sides, row_parts, asked, left_standing, to_and_fro, work_sequel, at_edges,
     bringing, reported, further_work, counting, which_of_two, asked_places,
 )  # fmt: skip

@@ -151,15 +151,20 @@ def each_way(every: float, site: Site) -> Adjunct:
     "walked: PATHGO OVER where=region path=in_path",
     "walked: path=path OVER where=region",
     "walked: path=path in_ where=region",
+    "walked: [TAKE] times=laps where=lapped",
+    "walked: [GO] times=often [COMMA] AROUND where=region",
     cost=0.1,
 )
 def walked(
     along: SamplingWay | None = None,
     path: SamplingPath | None = None,
     where: s.Selector | None = None,
+    times: int = 1,
 ) -> SamplingWay | None:
-    """Compose "cross the meadow in an X" before what is done on the way."""
-    return along if path is None else (path, where)
+    """Compose "cross the meadow in an X" before what is done on the way, and "one lap of the pond"."""
+    if times != 1:
+        return None
+    return along or (path or SamplingPath("edge", 1), where)
 
 
 @construction(
@@ -184,6 +189,54 @@ def captured_on_the_way(
     if n < 2 or any(one.count not in (None, 1) for one in things):
         return None
     return _at(CaptureCommand(things, None, used), path.over(where, site, count=n), n)
+
+
+@construction(
+    "at_corners: [AT] [DET] [n=count] noun=CORNER", "at_corners: [AT] DET [n=count] noun=CORNER OF IT", cost=0.0
+)
+@construction(
+    "at_corners: [AT] word=EACH [DET] [n=count] noun=CORNER ", "at_corners: [AT] word=EACH noun=CORNER OF IT", cost=0.0
+)
+@construction("at_corners: [AT] word=EACH OF DET [n=count] noun=CORNER", cost=0.0)
+def at_corners(noun: Lex, n: int | None = None, word: Lex | None = None) -> str | None:
+    """Compose "in each corner" and "at each of its four corners"."""
+    return "corners" if n in (None, 4) and (word is not None or noun.plural) else None
+
+
+@construction(
+    "capture: on=walked [COMMA] [AND] WITH things=things at_corners",
+    "capture: on=walked [COMMA] [AND] STOPEACH at_corners FOR things=things",
+    "capture: on=walked [COMMA] [AND] STOPEACH at_corners [COMMA] INORDERTO verb things=things",
+    "capture: on=walked [COMMA] [AND] joint=verb things=things at_corners",
+    "capture: on=walked [COMMA] [AND] joint=ACTV at_corners",
+    cost=0.0, given=("site",),
+)  # fmt: skip
+def captured_at_corners(
+    on: SamplingWay,
+    used: int,
+    site: Site,
+    things: tuple[Thing, ...] = (),
+    joint: Lex | str | None = None,
+) -> CaptureCommand | None:
+    """Compose "go once round the paddock with a picture in each corner"."""
+    path, where = on
+    ground = bare_ground(s.Trees() if where is None else where, site)
+    if (
+        isinstance(path, SamplingLine)
+        or path.shape != "edge"
+        or (ground is not None and (ground.left_out or ground.part != "all"))
+    ):
+        return None
+    if isinstance(joint, Lex):
+        things = (Thing(joint.value.actions[0]),)
+    if not things or any(one.count not in (None, 1) for one in things):
+        return None
+    if ground is None:  # "drive round the orchard and take a picture at each corner" are two steps
+        at = s.Corners(of=where or s.Trees()) if joint is None else None
+    else:
+        zone = ground.zone or next((one.name for one in site.zones if one.kind == "boundary"), "")
+        at = s.Corners(zone=zone) if zone else None
+    return None if at is None else CaptureCommand(once(things), PlaceMeaning(at, "several", count=4, each=True), used)
 
 
 @construction(

@@ -152,6 +152,9 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
         raise NotComposed(
             message("it is not clear whether each of those is meant, or each tree of the site", context="fault")
         )
+    if command.relation == "along" and place.shape == "area" and is_keep_out(place.selector, setting.site):
+        asked = message("'{said}': at how many places?", context="question", said=setting.quoted(command.used))
+        raise OpenQuestion(asked)
     refuse_keep_out(setting, place)
     place, things = fitted(setting, place, things, command.relation, command.used)
     if state.where is not None and any(one.more and (one.count or 0) > 1 for one in command.things):

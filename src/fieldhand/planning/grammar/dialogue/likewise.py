@@ -170,6 +170,8 @@ def _of_another_value(state: DialogueState, described: s.Selector) -> s.Selector
     Raises:
         NotComposed: Their description does not have that attribute.
     """
+    if state.where is None and state.lead is None and state.area is None:
+        return described  # "check the covered ones", before which none were named
     new, before = as_where(described), None if state.where is None else state.where.selector
     parts = () if before is None or before.relative else tuple(before.walk())
     old = [

@@ -40,27 +40,31 @@ def _in_zone(points: s.Selector, zone: str) -> s.Selector:
     return replace(points, zone=zone) if isinstance(points, s.PointsIn | s.Transect | s.Grid) else points
 
 
-def with_bare_corners(step: p.Node, site: Site) -> p.Node:
-    """Return a step at the corners of ground itself where a selector means those of ground without plants."""
+def with_bare_corners(plan: p.Node, site: Site) -> p.Node:
+    """Return a plan at the corners of ground itself where its selectors mean those of ground without plants.
+
+    On a site without plants, corners of nothing are those of the site, unless the plan names other ground.
+    """
+    bounds = [zone.name for zone in site.zones_of("boundary")]
+    places = [node.selector for node in p.walk(plan) if node.selector is not None]
+    named = any(getattr(part, "zone", "") for place in places for part in place.walk())
+    return _with_bare_corners(plan, site, bounds[0] if len(bounds) == 1 and not site.trees and not named else "")
+
+
+def _with_bare_corners(step: p.Node, site: Site, whole: str) -> p.Node:
     if step.act is not None:
-        return step.act if step.act.at is None else replace(step.act, at=_in_bare_corners(step.act.at, site))
+        return step.act if step.act.at is None else replace(step.act, at=_in_bare_corners(step.act.at, site, whole))
     if step.selector is not None:
-        step = with_selector(step, _in_bare_corners(step.selector, site))
-    return step.with_children([with_bare_corners(child, site) for child in step.children])
+        step = with_selector(step, _in_bare_corners(step.selector, site, whole))
+    return step.with_children([_with_bare_corners(child, site, whole) for child in step.children])
 
 
-def _in_bare_corners(places: s.Selector, site: Site) -> s.Selector:
+def _in_bare_corners(places: s.Selector, site: Site, whole: str) -> s.Selector:
     for part in tuple(places.walk()):
         corners = as_corners(part)
-        zone = "" if corners is None or corners.zone else _bare_ground(corners.of, site)
-        if corners is not None and zone:
+        if corners is None or corners.zone:
+            continue
+        zone = whole if corners.of == s.Trees() else bare_zone(corners.of, site)
+        if zone:
             places = swapped(places, part, s.Corners(which=corners.which, zone=zone))
     return places
-
-
-def _bare_ground(area: s.Selector, site: Site) -> str:
-    """Return the name of ground without plants; empty for other places."""
-    if area != s.Trees():
-        return bare_zone(area, site)
-    bounds = [zone.name for zone in site.zones_of("boundary")]
-    return bounds[0] if not site.trees and len(bounds) == 1 else ""

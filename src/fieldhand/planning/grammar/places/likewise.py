@@ -147,10 +147,19 @@ def its() -> PlaceMeaning:
 @construction(
     "place: [DET] [n=count] noun=TREE EACHSIDE [OF] [to=place]",
     "place: [DET] [n=count] noun=NEIGHBOUR EACHSIDE [OF] [to=place]",
+    "place: DET noun=ONE EACHSIDE OF to=place",
+    "place: DET noun=ONE EACHSIDE to=here",
+    "place: DET [n=count] noun=TREE [DIRECTLY] BOTHWAYS to=place",
+    "place: DET noun=ONE [DIRECTLY] BOTHWAYS to=place",
+    "place: DET [n=count] noun=TREE [DIRECTLY] BOTHWAYS it=IT",
+    "place: DET noun=ONE [DIRECTLY] BOTHWAYS it=IT",
     cost=0.2,
 )
-def on_each_side(n: int = 2, to: PlaceMeaning | None = None, noun: Lex | None = None) -> PlaceMeaning | None:
-    """Compose "the trees on either side of it": the next one of its row to each side."""
+def on_each_side(
+    n: int = 2, to: PlaceMeaning | None = None, noun: Lex | None = None, it: Lex | None = None
+) -> PlaceMeaning | None:
+    """Compose "the trees on either side of it" and "the one before and after it": the next of its row to each side."""
+    del it
     if n != 2 or (to is not None and to.shape not in ("one", "here")):
         return None
     origin = s.Here() if to is None else to.selector
