@@ -31,6 +31,10 @@ _PARTING = frozenset(
     {"then", "afterwards", "afterward", "next", "later", "finally", "again", "now", "immediately", "meanwhile"}
 )
 
+#: Words that end as verbs in the past do.
+_NOUNS_IN_ED = frozenset({"need", "bed", "seedbed", "shed", "seed", "weed", "reed", "feed", "red"})
+#: Words beside a time that belong to no clause that tells something.
+_JOINING = frozenset({"please", "and", "but", "then"})
 
 #: Words behind which a part of this day may be past.
 _PAST = frozenset({"was", "were", "had", "did", "got", "been", "has", "have", "already"})
@@ -75,6 +79,8 @@ def without_times(words: Sequence[Word], earlier: frozenset[int] = frozenset()) 
     ]
     part: TimePart | None = TimePart()
     for phrase in phrases:
+        if phrase.meaning.further and not _ends_clause(phrase, words):
+            return None  # "at 7 am read CO2, and again at 2 pm photograph row 3"
         part = None if part is None else part & phrase.meaning
     if part is None or not phrases:
         return None
@@ -223,7 +229,9 @@ def _is_of_mission(phrase: PhraseEdge, words: Sequence[Word]) -> bool:
     before = words[phrase.start - 1] if phrase.start else None
     if before is None or before.kind in ("stop", "comma"):
         return True
-    return before.norm not in _OF_SOMETHING_ELSE and not (before.norm.endswith("ed") and before.norm != "need")
+    return before.norm not in _OF_SOMETHING_ELSE and not (
+        before.norm.endswith("ed") and before.norm not in _NOUNS_IN_ED
+    )
 
 
 def _is_of_beginning(phrase: PhraseEdge, words: Sequence[Word], taken: frozenset[int]) -> bool:
@@ -239,6 +247,11 @@ def _is_of_beginning(phrase: PhraseEdge, words: Sequence[Word], taken: frozenset
     if phrase.meaning.day == "today" and phrase.meaning.takes is not None and any(w.norm in _PAST for w in before):
         return False  # "the trees that were dry this morning"
     return not sentences and not any(_parts(before, k) for k in range(len(before)))
+
+
+def _ends_clause(phrase: PhraseEdge, words: Sequence[Word]) -> bool:
+    """Return True if no command follows a time in its sentence."""
+    return phrase.end == len(words) or words[phrase.end].kind == "stop"
 
 
 def _parts(words: Sequence[Word], k: int) -> bool:
@@ -261,10 +274,10 @@ def _marks_of(phrase: PhraseEdge, words: Sequence[Word]) -> Iterator[int]:
 
 
 def _beside(phrase: PhraseEdge, words: Sequence[Word]) -> tuple[Span, ...]:
-    """Return the ranges of the words directly before and behind a time."""
+    """Return the ranges of the words directly before and behind a time that belong to the same clause."""
     near = (phrase.start - 1, phrase.end)
     return tuple(
         (words[token].start, words[token].end)
         for token in near
-        if 0 <= token < len(words) and words[token].kind not in ("stop", "comma") and words[token].norm != "please"
+        if 0 <= token < len(words) and words[token].kind not in ("stop", "comma") and words[token].norm not in _JOINING
     )
