@@ -16,6 +16,7 @@ from fieldhand.request_check.mismatch import PlanMismatch
 from fieldhand.request_check.request_facts import RequestFacts
 
 _PARTS = "morning|afternoon|evening|night|midnight|noon|midday|lunch|lunchtime|dawn|dusk|sunrise|sunset|nightfall"
+_UNITS_S = {"minute": 60.0, "hour": 3600.0}
 _UNITS = "day|night|week|weekend|fortnight|month|year|season|hour|minute"
 _DAYS = "monday|tuesday|wednesday|thursday|friday|saturday|sunday|weekday|weekend|workday"
 _MONTHS = "january|february|march|april|may|june|july|august|september|october|november|december"
@@ -106,8 +107,9 @@ def unsupported_words(
             told = _is_told(match, facts, sentence, first, last := first + len(match[0].split()), past=past)
             own = pattern is not _DONE and not facts.named.isdisjoint(range(first, last))
             held = any(states(match[0], period) for period in periods)
-            rests = any(
-                first - 1 <= one.index < last and one.kind == "time" and waits & {*one.values} for one in facts.amounts
+            stated = [one for one in facts.amounts if first - 1 <= one.index < last and one.kind == "time"]
+            rests = any(waits & {*one.values} for one in stated) or bool(
+                waits & {_UNITS_S.get(word) for word in match[0].split()}
             )
             if not (told or remark or speed or own or held or rests):
                 words = w.quoted(facts.tokens[first:last])

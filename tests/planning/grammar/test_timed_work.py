@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from fieldhand.planning.english.planner import EnglishPlanner
-from fieldhand.planning.planner import Clarify
+from fieldhand.planning.planner import Clarify, Planned
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.loader import open_site
@@ -86,3 +86,130 @@ def test_runs_until_a_time_are_asked_for_their_beginning() -> None:
     found = EnglishPlanner().plan("Read CO2 at both gates. Repeat the round every hour until 6 pm.", PASTURE, HUSKY)
     assert isinstance(found, Clarify), found
     assert found.question == "At what time of the day?"
+
+
+def _times(action: str, place: str, times: int, seconds: int) -> str:
+    return "; ".join([f"{action} @ {place}", *[f"wait {seconds}; {action}"] * (times - 1)])
+
+
+HEAP, BANK = "PointsIn(manure heap)", "PointsIn(bank)"
+AT_INTERVALS = [
+    (GARDEN, HUSKY,
+     "Go to the manure heap and take a gas sample there every 10 minutes for an hour.", _times("co2", HEAP, 7, 600)),
+    (GARDEN, HUSKY,
+     "Stay at the manure heap for an hour and read the carbon dioxide every ten minutes.", _times("co2", HEAP, 7, 600)),
+    (GARDEN, HUSKY,
+     "Wait at the manure heap for half an hour, reading CO2 every ten minutes.", _times("co2", HEAP, 4, 600)),
+    (GARDEN, HUSKY,
+     "Spend an hour at the manure heap and measure CO2 every 15 minutes.", _times("co2", HEAP, 5, 900)),
+    (PASTURE, HUSKY, "For half an hour, read CO2 on the bank every 5 minutes.", _times("co2", BANK, 7, 300)),
+    (PASTURE, HUSKY, "Over the next two hours, read CO2 on the bank every 20 minutes.", _times("co2", BANK, 7, 1200)),
+    (PASTURE, HUSKY, "Read CO2 on the bank for the next hour, once every half hour.", _times("co2", BANK, 3, 1800)),
+    (PASTURE, HUSKY, "Read CO2 on the bank every minute for three minutes.", _times("co2", BANK, 4, 60)),
+    (PASTURE, HUSKY, "Read CO2 on the bank every 7 minutes for half an hour.", _times("co2", BANK, 5, 420)),
+    (ORCHARD, HUSKY, "Photograph tree 4 every ten minutes for half an hour.", _times("picture", "TreeIs(4)", 4, 600)),
+    (ORCHARD, HUSKY,
+     "Go to tree 4 and take a picture there every 10 minutes, three times.",
+     "go TreeIs(4); picture; wait 600; picture; wait 600; picture"),
+    (ORCHARD, HUSKY,
+     "Stand at tree 4 for thirty minutes. Take a CO2 reading every ten minutes.", _times("co2", "TreeIs(4)", 4, 600)),
+    (ORCHARD, HUSKY, "Read CO2 at tree 4 every two minutes, three times in all.", _times("co2", "TreeIs(4)", 3, 120)),
+    (ORCHARD, HUSKY,
+     "Read CO2 and the air temperature at tree 4 every 10 minutes for 20 minutes, then photograph tree "
+     "9.",
+     "co2 @ TreeIs(4); air; wait 600; co2; air; wait 600; co2; air; picture @ TreeIs(9)"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("site", "robot", "request_", "plan"), AT_INTERVALS, ids=name)
+def test_captures_at_intervals_of_time(site: Site, robot: RobotProfile, request_: str, plan: str) -> None:
+    require_plan(site, robot, request_, plan)
+
+
+def test_the_number_of_captures_at_intervals_is_stated() -> None:
+    found = EnglishPlanner().plan("Photograph tree 4 every ten minutes for half an hour.", ORCHARD, HUSKY)
+    assert isinstance(found, Planned), found
+    stated = "Every 10 min for 30 min is taken as 4 times: at the beginning, at the end, and between."
+    assert stated in found.task.command.assumptions
+
+
+GATES = "for UnionOf(GateIs(middle gate)+GateIs(farm gate)): [co2]"
+AGAIN_LATER = [
+    (PASTURE, HUSKY,
+     "Read CO2 at both gates, then do it all again half an hour later.",
+     f"{GATES}; wait 1800; {GATES}"),
+    (PASTURE, HUSKY,
+     "Read CO2 at both gates. Half an hour later, do the whole round again.",
+     f"{GATES}; wait 1800; {GATES}"),
+    (PASTURE, HUSKY, "Read CO2 at both gates. Repeat the round after half an hour.", f"{GATES}; wait 1800; {GATES}"),
+    (PASTURE, HUSKY, "Read CO2 at both gates, wait 30 minutes, and do it all again.", f"{GATES}; wait 1800; {GATES}"),
+    (PASTURE, HUSKY, "Read CO2 at both gates. Wait ten minutes and repeat.", f"{GATES}; wait 600; {GATES}"),
+    (PASTURE, HUSKY,
+     "Read CO2 at both gates, three rounds, twenty minutes apart.",
+     f"2 times: [{GATES}; wait 1200]; {GATES}"),
+    (PASTURE, HUSKY,
+     "Read CO2 at both gates, two rounds with 20 minutes between rounds.",
+     f"{GATES}; wait 1200; {GATES}"),
+    (GLASSHOUSE, HUSKY, "Read CO2 in the middle of each bay, then do it all again an hour later.",
+     "for UnionOf(PointsIn(hot bay)+PointsIn(mild bay)): [co2]; wait 3600; "
+     "for UnionOf(PointsIn(hot bay)+PointsIn(mild bay)): [co2]"),
+    (GLASSHOUSE, HUSKY, "Photograph every melon, then do the same again an hour later.",
+     "for Where(crop, eq, melon): [picture]; wait 3600; for Where(crop, eq, melon): [picture]"),
+    (ORCHARD, HUSKY,
+     "Read CO2 at tree 4, then in half an hour do it again.",
+     "co2 @ TreeIs(4); wait 1800; co2 @ TreeIs(4)"),
+    (ORCHARD, HUSKY,
+     "Read CO2 at tree 4. An hour later, photograph tree 9.",
+     "co2 @ TreeIs(4); wait 3600; picture @ TreeIs(9)"),
+    (ORCHARD, HUSKY,
+     "Read CO2 at tree 4, and ten minutes later go to tree 9.",
+     "co2 @ TreeIs(4); wait 600; go TreeIs(9)"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("site", "robot", "request_", "plan"), AGAIN_LATER, ids=name)
+def test_work_is_done_again_later(site: Site, robot: RobotProfile, request_: str, plan: str) -> None:
+    require_plan(site, robot, request_, plan)
+
+
+@pytest.mark.parametrize(
+    ("site", "robot", "request_", "why"),
+    [
+        (PASTURE, HUSKY, "Read CO2 at both gates every 10 minutes for an hour.", "at one place"),
+        (ORCHARD, HUSKY, "Read CO2 at tree 4 for an hour.", "it does not say how often"),
+        (ORCHARD, HUSKY, "Read CO2 at tree 4 every hour for ten minutes.", "it does not say how often"),
+        (ORCHARD, HUSKY, "Read CO2 at tree 4 every minute for two hours.", "at most 50 times"),
+    ],
+    ids=name,
+)
+def test_intervals_that_are_not_clear_are_refused(site: Site, robot: RobotProfile, request_: str, why: str) -> None:
+    require_refusal(site, robot, request_, why)
+
+
+ALSO_THERE = [
+    (PASTURE, HUSKY, "Read the air temp on the bank, and if it's below 3 degrees also in the boggy corner.",
+     "air @ PointsIn(bank) = r1; if r1 < 3 degC: [air @ PointsIn(boggy corner)]"),
+    (PASTURE, HUSKY, "Read CO2 on the bank and, if it is above 500 ppm, at both gates as well.",
+     f"co2 @ PointsIn(bank) = r1; if r1 > 500 ppm: [{GATES}]"),
+    (GARDEN, HUSKY, "Read CO2 at the manure heap; if it is high, then also at the rose bed.",
+     "co2 @ PointsIn(manure heap) = r1; if r1 high: [co2 @ PointsIn(rose bed)]"),
+    (ORCHARD, HUSKY, "Read the air temp at tree 4; if it is below 30 degrees also at trees 5 and 9.",
+     "air @ TreeIs(4) = r1; if r1 < 30 degC: [for UnionOf(TreeIs(5)+TreeIs(9)): [air]]"),
+    (ORCHARD, HUSKY, "Read the air temp at tree 4; above 32 degrees do CO2 there and at tree 9, otherwise come home.",
+     "air @ TreeIs(4) = r1; if r1 > 32 degC: [co2; co2 @ TreeIs(9)] else [go Marker(start)]"),
+    (ORCHARD, HUSKY, "Read CO2 at tree 4. If it is above 500 ppm photograph it and tree 9, if not come home.",
+     "co2 @ TreeIs(4) = r1; if r1 > 500 ppm: [picture; picture @ TreeIs(9)] else [go Marker(start)]"),
+    (ORCHARD, HUSKY, "CO2 at tree 4; over 500 ppm take a picture there and at trees 5 and 6, else photograph tree 9.",
+     "co2 @ TreeIs(4) = r1; if r1 > 500 ppm: [picture; for UnionOf(TreeIs(5)+TreeIs(6)): [picture]] "
+     "else [picture @ TreeIs(9)]"),
+    (PASTURE, AMIGA,
+     "Soil moisture on the bank; below 20 percent, nitrate there and in the boggy corner, otherwise "
+     "home.",
+     "moisture @ PointsIn(bank) = r1; if r1 < 20 percent: [nitrate; nitrate @ PointsIn(boggy corner)] "
+     "else [go Marker(start)]"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("site", "robot", "request_", "plan"), ALSO_THERE, ids=name)
+def test_a_condition_decides_on_a_further_place(site: Site, robot: RobotProfile, request_: str, plan: str) -> None:
+    require_plan(site, robot, request_, plan)

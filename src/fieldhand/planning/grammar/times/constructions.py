@@ -132,6 +132,12 @@ def half_an_hour() -> float:
     return 30.0
 
 
+@construction("lasting: FOR by=minutes", "lasting: FOR THE by=minutes", cost=0.0)
+def lasting(by: float) -> float:
+    """Compose "for half an hour", which is no time of the mission."""
+    return by
+
+
 @construction("daytime: by=minutes BEFORE sun=SUN", cost=0.1)
 def before_the_sun(by: float, sun: Lex) -> DayTime:
     """Compose "an hour before sunrise"."""

@@ -35,6 +35,7 @@ _PARTING = frozenset(
 _NOUNS_IN_ED = frozenset({"need", "bed", "seedbed", "shed", "seed", "weed", "reed", "feed", "red"})
 #: Words beside a time that belong to no clause that tells something.
 _JOINING = frozenset({"please", "and", "but", "then"})
+_DAY_MIN = 24 * 60
 
 #: Words behind which a part of this day may be past.
 _PAST = frozenset({"was", "were", "had", "did", "got", "been", "has", "have", "already"})
@@ -84,8 +85,8 @@ def without_times(words: Sequence[Word], earlier: frozenset[int] = frozenset()) 
         part = None if part is None else part & phrase.meaning
     if part is None or not phrases:
         return None
-    if part.every_min and not part.last_day and _says_how_often(words):
-        return None  # "every ten minutes, six times" is one mission
+    if part.every_min and not part.last_day and (_says_how_often(words) or _says_how_long(words, part.every_min)):
+        return None  # "every ten minutes, six times" and "every ten minutes for an hour" are one mission
     if sum(phrase.meaning.says_how_often for phrase in phrases) > 1:
         return None  # "photograph row 3 every day, and row 4 every Monday"
     taken = frozenset(token for phrase in phrases for token in range(phrase.start, phrase.end))
@@ -109,6 +110,13 @@ def _says_how_often(words: Sequence[Word]) -> bool:
         texts[k + 1] == "times" and (texts[k] in vocabulary()["numbers"] or texts[k].isdecimal())
         for k in range(len(texts) - 1)
     )
+
+
+def _says_how_long(words: Sequence[Word], every_min: int) -> bool:
+    """Return True if words say a time of several intervals for which something is done: "for an hour"."""
+    chart = Chart(GRAMMAR, len(words), frozenset(), given={})
+    chart.parse(time_edges(words))
+    return any(every_min <= edge.meaning < _DAY_MIN for edge in chart.of_category("lasting"))
 
 
 @dataclass(frozen=True, kw_only=True)
