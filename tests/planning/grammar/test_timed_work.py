@@ -213,3 +213,45 @@ ALSO_THERE = [
 @pytest.mark.parametrize(("site", "robot", "request_", "plan"), ALSO_THERE, ids=name)
 def test_a_condition_decides_on_a_further_place(site: Site, robot: RobotProfile, request_: str, plan: str) -> None:
     require_plan(site, robot, request_, plan)
+
+
+OR_SOONER = [
+    (ORCHARD, HUSKY,
+     "Photograph trees 4, 9 and 30, then back to the charger, or straight there if the battery drops "
+     "under 40 percent.",
+     "for UnionOf(TreeIs(4)+TreeIs(9)+TreeIs(30)): [picture; if battery <= 40: [go Marker(charger); stop]]; "
+     "go Marker(charger) | stay"),
+    (ORCHARD, HUSKY,
+     "Photograph row 4, then go to the charger. If the battery falls below 40 percent, go straight to "
+     "the charger.",
+     "for Rows(4, 4): [picture; if battery <= 40: [go Marker(charger); stop]]; go Marker(charger) | stay"),
+    (ORCHARD, HUSKY,
+     "Photograph row 4. If the battery falls below 40 percent, drive straight to the charger, otherwise "
+     "come home.",
+     "for Rows(4, 4): [picture; if battery <= 40: [go Marker(charger); stop]]"),
+    (ORCHARD, HUSKY,
+     "Photograph row 4, then drive to the charger, but right away once the battery falls below 30 "
+     "percent.",
+     "for Rows(4, 4): [picture; if battery <= 30: [go Marker(charger); stop]]; go Marker(charger) | stay"),
+    (ORCHARD, HUSKY,
+     "CO2 at tree 4 and a picture of tree 9, then back to the charger, or straight there if the battery "
+     "drops below 40 %.",
+     "co2 @ TreeIs(4); if battery <= 40: [go Marker(charger); stop]; picture @ TreeIs(9); "
+     "if battery <= 40: [go Marker(charger); stop]; go Marker(charger) | stay"),
+    (ORCHARD, HUSKY, "Photograph row 4, then come home, or sooner if the battery drops below 40 %.",
+     "for Rows(4, 4): [picture] | reserve 40"),
+    (PASTURE, HUSKY, "Read CO2 at both gates, then come home, earlier if the battery drops below 40 percent.",
+     "for UnionOf(GateIs(middle gate)+GateIs(farm gate)): [co2] | reserve 40"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("site", "robot", "request_", "plan"), OR_SOONER, ids=name)
+def test_a_low_battery_ends_the_work_sooner(site: Site, robot: RobotProfile, request_: str, plan: str) -> None:
+    require_plan(site, robot, request_, plan)
+
+
+def test_what_is_done_otherwise_among_visits_is_not_guessed() -> None:
+    request = (
+        "Photograph row 4. If the battery falls below 40 %, go straight to the charger, otherwise measure CO2."
+    )
+    assert not isinstance(EnglishPlanner().plan(request, ORCHARD, HUSKY), Planned)

@@ -18,6 +18,7 @@ from fieldhand.planning.grammar.dialogue.capturing import (
 from fieldhand.planning.grammar.dialogue.compared import in_both_cases, is_compared
 from fieldhand.planning.grammar.dialogue.conditions import (
     captured_where,
+    ends_among_visits,
     in_no_case,
     otherwise,
     pass_on,
@@ -48,7 +49,9 @@ from fieldhand.planning.grammar.dialogue.plans import (
     as_for_each,
     block_at,
     is_idle_case,
+    node_at,
     walk,
+    with_node,
     without_idle_cases,
 )
 from fieldhand.planning.grammar.dialogue.series import at_compared, is_by_reading, with_read_place
@@ -373,6 +376,8 @@ def _read(
             return pass_on(setting, state, command)
         case Otherwise():
             state = capture_elided(setting, state)  # "read CO2 there and at tree 9, otherwise come home"
+            if ends_among_visits(state):
+                return _unless_ended(setting, state, command, following)
             runs_on = joint is None  # without a comma or a full stop nothing shows where the case ends
             said = setting.spans_of(command.used)
             return replace(otherwise(setting, state, said, in_all=command.in_all), runs_on=runs_on)
@@ -412,6 +417,23 @@ def _read(
             return failing(setting, state, command)
         case InTurn() | Correction() | Reordered() | WatchCommand():
             raise AssertionError("these are resolved before the clauses are read")
+
+
+def _unless_ended(
+    setting: Setting, state: DialogueState, command: Otherwise, following: Sequence[LinkedCommand]
+) -> DialogueState:
+    """Return the state behind visits in one of which the mission may have ended ("..., otherwise come home").
+
+    Raises:
+        NotComposed: What follows is done in each visit, or behind them.
+    """
+    if not following or not isinstance(following[0].command, Home | DriveCommand):
+        raise NotComposed(message("to which 'if' does it belong?", context="fault"))
+    path = state.choice or ()
+    choice = node_at(state.plan, path)
+    said = replace(choice, said=(*choice.said, *setting.spans_of(command.used)))
+    plan = with_node(state.plan, path, said)
+    return replace(state, plan=plan, scope=(), loop=None, choice=None, in_case=None)
 
 
 def _require_apart(clause: LinkedCommand) -> None:
