@@ -74,6 +74,15 @@ _OTHER_TIMES = frozenset({"again", "later", "now", "then", "afterwards"})
 _OF_EARLIER = frozenset({"from", "of", "since", "until"})
 #: Words with which a reason begins that may tell of the past ("because we did that row yesterday").
 _REASON = _pattern((r"because", r"since (?:we|i|it|they|he|she|the|my|our|row|tree)"))
+#: What tells that something was done: the beginning of a sentence ("I photographed row 1 yesterday"), and words before
+#: a time ("rows 1 and 2 were done this morning"), which describe no places ("that were done").
+_DID = re.compile(
+    r"(?:i|we|they|he|she|somebody|someone)(?:'ve|'s)?(?: have| has| had| already| just)* (?:did|done|\w+ed)\b"
+)
+_WAS_DONE = re.compile(
+    r"(?<!that )(?<!which )(?<!who )(?<!where )(?<!whatever )(?<!what )(?<!those )(?<!\S)(?:is|are|was|were|been|got)"
+    rf"(?: already| all)* (?:{_WORKED}|finished|completed)(?: already| earlier)?$"
+)
 
 
 def unsupported_words(
@@ -125,8 +134,11 @@ def _is_told(match: re.Match[str], facts: RequestFacts, sentence: int, first: in
         [facts.tokens[k].text for k in said if k < first],
         [facts.tokens[k].text for k in said if k >= last],
     )
+    if _WAS_DONE.search(" ".join(before)) is not None:
+        return True
     if past:
-        return _REASON.search(" ".join(before)) is not None
+        told = " ".join(before)
+        return _REASON.search(told) is not None or _DID.match(f"{told} {match[0]}".strip()) is not None
     if _START.fullmatch(match[0]) is None or len(_START.findall(facts.text)) > 1:
         return False
     other = _OTHER_TIMES & {*before, *after} or _OF_EARLIER & {*before[-1:]}

@@ -251,7 +251,43 @@ def test_a_low_battery_ends_the_work_sooner(site: Site, robot: RobotProfile, req
 
 
 def test_what_is_done_otherwise_among_visits_is_not_guessed() -> None:
-    request = (
-        "Photograph row 4. If the battery falls below 40 %, go straight to the charger, otherwise measure CO2."
-    )
+    request = "Photograph row 4. If the battery falls below 40 %, go straight to the charger, otherwise measure CO2."
     assert not isinstance(EnglishPlanner().plan(request, ORCHARD, HUSKY), Planned)
+
+
+NOT_ROWS = "for Excluding(UnionOf(Rows(1, 1)+Rows(2, 2)), of Where(variety, eq, Carmel)): [picture]"
+DONE_BEFORE = [
+    (ORCHARD, HUSKY, "Rows 1 and 2 were done this morning, so just photograph the remaining Carmels.", NOT_ROWS),
+    (ORCHARD, HUSKY, "Rows 1 and 2 are already done; photograph the rest of the Carmels.", NOT_ROWS),
+    (ORCHARD, HUSKY, "We did rows 1 and 2 yesterday. Photograph the other Carmels.", NOT_ROWS),
+    (ORCHARD, HUSKY,
+     "I've already photographed rows 1 and 2, so take a picture of each of the remaining Carmels.", NOT_ROWS),
+    (ORCHARD, HUSKY, "Photograph the remaining Carmels; rows 1 and 2 were finished yesterday.", NOT_ROWS),
+    (ORCHARD, HUSKY,
+     "Somebody already did tree 31. Read CO2 at the rest of row 2.",
+     "for Excluding(TreeIs(31), of Rows(2, 2)): [co2]"),
+    (GLASSHOUSE, HUSKY, "I did row 1 by hand. Photograph the remaining melons.",
+     "for Excluding(Rows(1, 1), of Where(crop, eq, melon)): [picture]"),
+    (GARDEN, AMIGA, "Row 2 has been sampled already. Take a leaf sample from each of the other potatoes.",
+     "for Excluding(Rows(2, 2), of Where(crop, eq, potato)): [sample_leaf]"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("site", "robot", "request_", "plan"), DONE_BEFORE, ids=name)
+def test_what_was_done_before_is_left_out_of_the_rest(
+    site: Site, robot: RobotProfile, request_: str, plan: str
+) -> None:
+    require_plan(site, robot, request_, plan)
+
+
+@pytest.mark.parametrize(
+    "request_",
+    [
+        "Rows 1 and 2 were done this morning. Photograph every Carmel.",
+        "Photograph the remaining Carmels.",
+        "Photograph the remaining 5 trees of row 1.",
+        "Rows 1 and 2 were planted this morning, so photograph the remaining Carmels.",
+    ],
+)
+def test_what_was_done_is_left_out_only_of_a_rest(request_: str) -> None:
+    assert not isinstance(EnglishPlanner().plan(request_, ORCHARD, HUSKY), Planned)
