@@ -10,6 +10,7 @@ from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.loader import open_site
 from fieldhand.site.model import Site
+from planning.english.outlines import outline
 from planning.grammar.field_requests import name, require_plan, require_refusal
 from support.sites.gardens import glasshouse, pasture, vegetable_garden
 
@@ -291,3 +292,31 @@ def test_what_was_done_before_is_left_out_of_the_rest(
 )
 def test_what_was_done_is_left_out_only_of_a_rest(request_: str) -> None:
     assert not isinstance(EnglishPlanner().plan(request_, ORCHARD, HUSKY), Planned)
+
+
+KEPT_OFF = [
+    (PASTURE, AMIGA, "Read soil moisture on the bank without driving onto the cowslip patch itself.",
+     "moisture @ PointsIn(bank) | avoid InZone(cowslip patch)"),
+    (PASTURE, AMIGA, "Read soil moisture on the bank. Don't drive onto the cowslip patch.",
+     "moisture @ PointsIn(bank) | avoid InZone(cowslip patch)"),
+    (PASTURE, AMIGA, "Read soil moisture on the bank, but stay off the cowslip patch itself.",
+     "moisture @ PointsIn(bank) | avoid InZone(cowslip patch)"),
+    (PASTURE, HUSKY, "Read CO2 at both gates without entering the boggy corner.",
+     "for UnionOf(GateIs(middle gate)+GateIs(farm gate)): [co2] | avoid InZone(boggy corner)"),
+    (ORCHARD, HUSKY, "Photograph trees 4 and 9 without running over the wet corner.",
+     "for UnionOf(TreeIs(4)+TreeIs(9)): [picture] | avoid InZone(wet corner)"),
+    (ORCHARD, HUSKY,
+     "Never step onto the wet corner. Photograph tree 4.",
+     "picture @ TreeIs(4) | avoid InZone(wet corner)"),
+    (ORCHARD, HUSKY, "Take a picture every 8 m around the wet corner without driving onto it.",
+     "for Transect(8, edge, wet corner): [picture] | avoid InZone(wet corner)"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("site", "robot", "request_", "plan"), KEPT_OFF, ids=name)
+def test_ground_that_is_not_driven_onto_is_kept_out_of(
+    site: Site, robot: RobotProfile, request_: str, plan: str
+) -> None:
+    outcome = EnglishPlanner().plan(request_, site, robot)
+    assert isinstance(outcome, Planned), outcome
+    assert outline(outcome.task).replace(" | return_to_start", "") == plan
