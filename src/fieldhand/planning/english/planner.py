@@ -12,7 +12,7 @@ from fieldhand.planning.english.missing_blocks import missing_blocks
 from fieldhand.planning.english.tokens import Word, words_of
 from fieldhand.planning.english.wishes import Wish, early_wishes
 from fieldhand.planning.grammar.planned import NAME
-from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Reason, Refused
+from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Refused
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.codec_text import hidden_character
@@ -116,8 +116,8 @@ class EnglishPlanner:
             return outcome
         if times.beside_any(outcome.task.command.no_part):  # "the crew arrives at 7 am" is told of the crew
             return None
-        if (odd := _longer_than_interval(outcome, request)) is not None:
-            return Refused(reasons=(odd,), planner=NAME)
+        if _waits_longer_than_interval(outcome):
+            return None  # "wait an hour there and read CO2 every ten minutes" is one mission
         if asked is not None:
             choices = tuple(said for said, _ in asked.choices)
             return Clarify(question=asked.question, choices=choices, planner=NAME, free=True)
@@ -130,26 +130,13 @@ class EnglishPlanner:
         return replace(outcome, task=replace(outcome.task, command=stated))
 
 
-def _longer_than_interval(planned: Planned, request: str) -> Reason | None:
-    """Return the reason against runs so close that a wait in one lasts until the next; None otherwise.
-
-    "Stay for an hour and read CO2 every ten minutes" is one mission, not one of an hour every ten minutes.
-    """
+def _waits_longer_than_interval(planned: Planned) -> bool:
+    """Return True for runs so close that the waits of one last until the next."""
     schedule = planned.task.timing
     if not isinstance(schedule, Schedule) or not schedule.every_min:
-        return None
+        return False
     waits = sum(node.seconds for node in walk(planned.task.composition.plan) if isinstance(node, Wait))
-    if waits < 60.0 * schedule.every_min:
-        return None
-    said = schedule.said[0] if schedule.said else (0, len(request))
-    return Reason(
-        what=message(
-            "'{said}': each run would wait until the next one is due", said=request[said[0] : said[1]].strip(" ,.")
-        ),
-        said=(said,),
-        advice=message("say 'read CO2 6 times, 10 minutes apart'"),
-        final=True,
-    )
+    return waits >= 60.0 * schedule.every_min
 
 
 def _earlier(words: Sequence[Word], site: Site, robot: RobotProfile) -> frozenset[int]:

@@ -8,6 +8,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.exclusions import Excluded, left_out_of
 from fieldhand.planning.grammar.meaning import (
+    THAT_GROUND,
     Amount,
     CaptureCommand,
     Command,
@@ -30,7 +31,7 @@ GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
 
-@construction("way_rule: KEEPOUT place=place", "way_rule: place=place OFFLIMITS", cost=0.2)
+@construction("way_rule: KEEPOUT place=place [ITSELF]", "way_rule: place=place OFFLIMITS", cost=0.2)
 def keep_out(place: PlaceMeaning, used: int) -> WayRule | None:
     """Compose "stay out of row 10", "avoid the pond" and "row 10 is off limits"."""
     places = kept_from(place)
@@ -43,6 +44,12 @@ def not_through(place: PlaceMeaning, used: int, word: Lex | None = None) -> WayR
     del word
     places = kept_from(place)
     return None if places is None else WayRule(tuple((one, 0.0) for one in places), used=used)
+
+
+@construction("way_rule: WITHOUT PASSES IT [ITSELF]", cost=0.2)
+def not_through_it(used: int) -> WayRule:
+    """Compose "without driving onto it", the ground that was spoken of before."""
+    return WayRule(((s.InZone(zone=THAT_GROUND), 0.0),), used=used)
 
 
 @construction("around: DRIVEAROUND place=place", cost=0.2)
@@ -275,7 +282,7 @@ def _keeping(said: Said, rule: WayRule, site: Site) -> tuple[LinkedCommand, ...]
     """Return commands without the trees at which the robot could not work, where the request leaves a choice."""
     clauses = said.clauses
     for places, metres in rule.avoid:
-        if metres or ids_of(places, site) is None:
+        if metres or places == s.InZone(zone=THAT_GROUND) or ids_of(places, site) is None:
             continue
         clauses = tuple(
             replace(clause, command=_kept(clause.command, places, site, leaves_out=places in rule.left_out))

@@ -70,6 +70,14 @@ def other_ones_of_a_kind(inner: Nominal) -> PlaceMeaning | None:
     return PlaceMeaning(inner.selector, "several", like=Likewise("rest"))
 
 
+@construction("place: DET REMAINING inner=nominal", "place: EACH DET REMAINING inner=nominal", cost=0.4)
+def remaining_ones(inner: Nominal) -> PlaceMeaning | None:
+    """Compose "the remaining tomatoes", of which some were named or done before."""
+    if not inner.plural or inner.single or inner.complete:
+        return None
+    return PlaceMeaning(inner.selector, "several", like=Likewise("rest"))
+
+
 @construction("place: OTHERS", cost=4.0)
 @construction("place: DET OTHER noun=TREE", cost=0.5)
 def the_rest(noun: Lex | None = None) -> PlaceMeaning | None:

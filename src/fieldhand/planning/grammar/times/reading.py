@@ -31,6 +31,11 @@ _PARTING = frozenset(
     {"then", "afterwards", "afterward", "next", "later", "finally", "again", "now", "immediately", "meanwhile"}
 )
 
+#: Words that end as verbs in the past do.
+_NOUNS_IN_ED = frozenset({"need", "bed", "seedbed", "shed", "seed", "weed", "reed", "feed", "red"})
+#: Words beside a time that belong to no clause that tells something.
+_JOINING = frozenset({"please", "and", "but", "then"})
+_DAY_MIN = 24 * 60
 
 #: Words behind which a part of this day may be past.
 _PAST = frozenset({"was", "were", "had", "did", "got", "been", "has", "have", "already"})
@@ -75,11 +80,13 @@ def without_times(words: Sequence[Word], earlier: frozenset[int] = frozenset()) 
     ]
     part: TimePart | None = TimePart()
     for phrase in phrases:
+        if phrase.meaning.further and not _ends_clause(phrase, words):
+            return None  # "at 7 am read CO2, and again at 2 pm photograph row 3"
         part = None if part is None else part & phrase.meaning
     if part is None or not phrases:
         return None
-    if part.every_min and not part.last_day and _says_how_often(words):
-        return None  # "every ten minutes, six times" is one mission
+    if part.every_min and not part.last_day and (_says_how_often(words) or _says_how_long(words, part.every_min)):
+        return None  # "every ten minutes, six times" and "every ten minutes for an hour" are one mission
     if sum(phrase.meaning.says_how_often for phrase in phrases) > 1:
         return None  # "photograph row 3 every day, and row 4 every Monday"
     taken = frozenset(token for phrase in phrases for token in range(phrase.start, phrase.end))
@@ -103,6 +110,13 @@ def _says_how_often(words: Sequence[Word]) -> bool:
         texts[k + 1] == "times" and (texts[k] in vocabulary()["numbers"] or texts[k].isdecimal())
         for k in range(len(texts) - 1)
     )
+
+
+def _says_how_long(words: Sequence[Word], every_min: int) -> bool:
+    """Return True if words say a time of several intervals for which something is done: "for an hour"."""
+    chart = Chart(GRAMMAR, len(words), frozenset(), given={})
+    chart.parse(time_edges(words))
+    return any(every_min <= edge.meaning < _DAY_MIN for edge in chart.of_category("lasting"))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -223,7 +237,9 @@ def _is_of_mission(phrase: PhraseEdge, words: Sequence[Word]) -> bool:
     before = words[phrase.start - 1] if phrase.start else None
     if before is None or before.kind in ("stop", "comma"):
         return True
-    return before.norm not in _OF_SOMETHING_ELSE and not (before.norm.endswith("ed") and before.norm != "need")
+    return before.norm not in _OF_SOMETHING_ELSE and not (
+        before.norm.endswith("ed") and before.norm not in _NOUNS_IN_ED
+    )
 
 
 def _is_of_beginning(phrase: PhraseEdge, words: Sequence[Word], taken: frozenset[int]) -> bool:
@@ -239,6 +255,11 @@ def _is_of_beginning(phrase: PhraseEdge, words: Sequence[Word], taken: frozenset
     if phrase.meaning.day == "today" and phrase.meaning.takes is not None and any(w.norm in _PAST for w in before):
         return False  # "the trees that were dry this morning"
     return not sentences and not any(_parts(before, k) for k in range(len(before)))
+
+
+def _ends_clause(phrase: PhraseEdge, words: Sequence[Word]) -> bool:
+    """Return True if no command follows a time in its sentence."""
+    return phrase.end == len(words) or words[phrase.end].kind == "stop"
 
 
 def _parts(words: Sequence[Word], k: int) -> bool:
@@ -261,10 +282,10 @@ def _marks_of(phrase: PhraseEdge, words: Sequence[Word]) -> Iterator[int]:
 
 
 def _beside(phrase: PhraseEdge, words: Sequence[Word]) -> tuple[Span, ...]:
-    """Return the ranges of the words directly before and behind a time."""
+    """Return the ranges of the words directly before and behind a time that belong to the same clause."""
     near = (phrase.start - 1, phrase.end)
     return tuple(
         (words[token].start, words[token].end)
         for token in near
-        if 0 <= token < len(words) and words[token].kind not in ("stop", "comma") and words[token].norm != "please"
+        if 0 <= token < len(words) and words[token].kind not in ("stop", "comma") and words[token].norm not in _JOINING
     )
