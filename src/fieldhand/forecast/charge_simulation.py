@@ -146,14 +146,12 @@ class ChargesNeeded:
 
     Attributes:
         here: From where the robot is.
-        granted: Of an action at the place where the robot is, of a visit that was begun.
         from_charger: From the charger, with a charged battery.
         rest: From the charger, for everything that is left.
         far: Up to what percent to charge for the stretch (:meth:`RechargeRules.far`).
     """
 
     here: Floats
-    granted: Floats
     from_charger: Floats
     rest: Floats
     far: Floats
@@ -235,7 +233,6 @@ def _needed(some: Sequence[GuardedStep], ahead: _Ahead) -> ChargesNeeded:
     certain = zip(*(part.tolist() for part in ahead.certain(start)), strict=True)
     return ChargesNeeded(
         here=ahead.suffices(leg),
-        granted=ahead.suffices(np.zeros(len(some)), charged=True),
         from_charger=np.where(known, ahead.suffices(start, charged=True), np.inf),
         rest=np.where(known, ahead.everything(start), np.inf),
         far=np.where(known, [ahead.rules.far(*each) for each in certain], np.inf),
@@ -295,13 +292,6 @@ def charged_missions(
                 whole = ahead.whole(legs_m, number)
                 must &= ~rules.is_way_to_charger_worse(missions.level, missions.away_m, whole, ahead.work[number])
             goes = _charge_first(missions, rules, samples, number, must, needed)
-        elif stretch.step is not None and stretch.step.kind == "act" and not stretch.leg_m:
-            # Before each action the robot looks at the charge that the drive has left.
-            low = missions.level < float(needed.granted[number])
-            if low.any():
-                whole = ahead.whole(legs_m, number)
-                low &= ~rules.is_way_to_charger_worse(missions.level, missions.away_m, whole, ahead.work[number])
-                goes = _charge_first(missions, rules, samples, number, low, needed)
         costs = samples.leg(number)
         way = leaving.preview.last if leaving is not None and after_visits else stretch.leg_m * costs
         back_m = stretch.from_charger_m if goes.any() else 0.0

@@ -212,25 +212,9 @@ class ChargedVisits:
             draw=self._draw,
             slower_s_per_m=self._slower,
         )
-        self.missions.drive(costs, some, self._slower)
-        self._charge_before_work(some, stop)
-        self.missions.drive(np.full(len(some), visit.inside_m), some, self._slower)
+        self.missions.drive(costs + visit.inside_m, some, self._slower)
         self.missions.act(visit.work, some)
         self._at[some] = stop
-
-    def _charge_before_work(self, some: Ints, stop: int) -> None:
-        """Charge and come back where the drive has left too little for the work and the way to the charger."""
-        rules, missions, spot, visit = self._rules, self.missions, self._spot(stop), self._visits[stop - 1]
-        start = self._from_charger(stop)
-        back_m = min(spot.away_m, spot.home_m)
-        if not math.isfinite(spot.away_m) or not start.is_within(rules):
-            return
-        enough = rules.needed([back_m**n for n in (1, 2, 3)], _docked(rules, visit), charged=True)
-        low = (missions.level[some] < enough) & rules.gains(missions.level[some])
-        going = some[low & (missions.ordered[some] < rules.at_most)]
-        if len(going):
-            missions.interrupt(going, np.full(len(going), spot.away_m), self._draw(going, 0), far=start.far)
-            missions.drive(start.leg_m * self._draw(going, 1), going, self._slower)
 
     def _draw(self, some: Ints, _number: int) -> Floats:
         return cost_model(self._rules.robot).draw(self._rng, len(some))
