@@ -24,7 +24,7 @@ from fieldhand.task.earlier import site_of
 from fieldhand.task.frames import Budget, FaultedExit, Task, Then
 from fieldhand.wording.branches import FAULTS, say_decisions
 from fieldhand.wording.earlier import say_earlier
-from fieldhand.wording.recharging import say_charges, say_energy_limits
+from fieldhand.wording.recharging import say_charges, say_energy_limits, say_far_charging
 from fieldhand.wording.resolved_places import gather
 from fieldhand.wording.steps import ReadBackLine, say_exit_after, write_lines
 from fieldhand.wording.timing import say_timing
@@ -124,6 +124,7 @@ def read_back(task: Task, site: Site, robot: RobotProfile, estimate: Estimate) -
             *_notes(walks, site),
             *map(_say_sampling, estimate.sampling),
             *_waits(task, robot),
+            *say_far_charging(task.constraints, robot, estimate.worst.charged_to),
             *way_notes(task.constraints, robot),
         ),
         totals=_totals(estimate, task, robot),

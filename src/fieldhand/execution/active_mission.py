@@ -26,7 +26,7 @@ from fieldhand.execution.time_of_day import TimeOfDay
 from fieldhand.forecast.conditions import ConditionInputs
 from fieldhand.forecast.mission_state import MissionState, Spent
 from fieldhand.forecast.optional_visits import OptionalVisits
-from fieldhand.forecast.recharge_rules import charge_target, charger_of
+from fieldhand.forecast.recharge_rules import charge_target, charger_of, farthest_target
 from fieldhand.forecast.resource_limits import speed_of
 from fieldhand.forecast.slow_ground import slow_ground
 from fieldhand.forecast.visit_order import start_place
@@ -456,6 +456,11 @@ class ActiveMission:
     def charge_target(self) -> float:
         """The charge in percent up to which the mission charges."""
         return charge_target(self.task.constraints, self.robot)
+
+    @property
+    def farthest_target(self) -> float:
+        """The charge in percent up to which it charges when a drive was broken off for it."""
+        return farthest_target(self.task.constraints, self.robot)
 
     def start_maneuver(self, node: str, action: str, number: int) -> None:
         """Start the ``number``-th attempt at docking or undocking."""

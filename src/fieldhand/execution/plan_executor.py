@@ -119,7 +119,7 @@ class PlanExecutor:
         while True:
             try:
                 if moves and self.mission.recharge_due:
-                    raise ChargeFirst(self.mission.recharge_due, self.mission.charge_target)
+                    raise ChargeFirst(self.mission.recharge_due, self.mission.farthest_target)
                 return (yield from self._answer(request))
             except ChargeFirst as first:
                 yield from self._charge(first.why, first.until_percent)
