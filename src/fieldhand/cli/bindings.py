@@ -25,6 +25,8 @@ def binding_lines(profile: RobotProfile) -> Iterator[str]:
     yield f"  position {_topic(ros2, ros2.position.fix)}, to {ros2.position.most_sigma_m:g} m"
     yield f"  battery {_topic(ros2, ros2.battery.topic)}: {_value(ros2.battery.value)}"
     yield f"  metres {'along the position' if ros2.odometry is None else _topic(ros2, ros2.odometry)}"
+    if ros2.odometer is not None:
+        yield f"  all metres {_topic(ros2, ros2.odometer.topic)}: {_value(ros2.odometer.value)}"
     if ros2.stop is not None:
         yield f"  stop {_topic(ros2, ros2.stop.topic)}: while {ros2.stop.path} is {str(ros2.stop.stopped).lower()}"
     for action in profile.doable.values():

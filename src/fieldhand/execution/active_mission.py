@@ -568,7 +568,12 @@ class ActiveMission:
         if self.inputs.cuts != self._cuts:
             self._cuts = self.inputs.cuts
             at = self.observation.position
-            self.emit(Resumed(t=self.t, lat=at.lat, lon=at.lon, charge_percent=self.charge_percent()))
+            resumed = Resumed(t=self.t, lat=at.lat, lon=at.lon, charge_percent=self.charge_percent())
+            if (driven := self.inputs.unobserved) is not None:
+                resumed = dataclasses.replace(
+                    resumed, driven_m=driven.metres, driven_s=driven.seconds, driven_by=driven.by
+                )
+            self.emit(resumed)
 
     def emit_arrived(self, node: str, place: Place, leg_m: float) -> None:
         """Record that the robot has arrived at a place."""

@@ -28,7 +28,7 @@ from fieldhand.execution.drivers.protocol import (
     DriveGoal,
     Driver,
     EventSource,
-    Position,
+    Odometer,
     Progress,
     SharedNavigation,
 )
@@ -49,6 +49,7 @@ from fieldhand.execution.journal.records import (
 )
 from fieldhand.execution.mission_clock import LOOK_EVERY_S, MissionClock, StopTimeout
 from fieldhand.execution.operator_commands import OperatorCommand
+from fieldhand.execution.unobserved_drive import UnobservedDrive, drive_since
 from fieldhand.forecast.failsafe_state import FailsafeForecast, FailsafeState
 from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
 from fieldhand.language import message
@@ -84,6 +85,7 @@ class RecordedInputs:
 
     Attributes:
         cuts: Number of power cuts so far.
+        unobserved: What the robot drove on during the last one; None for nothing.
     """
 
     def __init__(
@@ -101,6 +103,7 @@ class RecordedInputs:
         watched: Collection[str] = (),
     ) -> None:
         self.cuts = 0
+        self.unobserved: UnobservedDrive | None = None
         self._watched = tuple(watched)
         self._driver, self._guard, self._failsafe = driver, guard, failsafe
         self._clock, self._wall, self._log = clock, wall, log
@@ -112,7 +115,9 @@ class RecordedInputs:
         self._now: Observation | None = None
         self._ahead: Record | None = None
         self._goal: DriveGoal | ActionGoal | None = None
-        self._goal_from: Position | None = None
+        #: The last look at the goal under way, or at the robot before it started.
+        self._last: Observation | None = None
+        self._goal_progress = Progress(state="running")
         self._goal_cut_off = False
         self._replayed = 0
         self._committed_s = time.monotonic()
@@ -146,7 +151,7 @@ class RecordedInputs:
 
     def start(self, goal: DriveGoal | ActionGoal) -> None:
         """Start a goal, once its record is synced."""
-        self._goal_from = self.observation.position
+        self._last, self._goal_progress = self.observation, Progress(state="running")
         record, before = goal_record(goal), self._recorded("begun")
         if before is not None and before.body != record.body:
             raise divergence(f"it began {before.body}, now it would begin {record.body}")
@@ -322,6 +327,7 @@ class RecordedInputs:
     def _cut(self) -> None:
         """Count a power cut; it interrupted the current goal."""
         self.cuts += 1
+        self.unobserved = None
         self._goal_cut_off = self._goal is not None
         if self._live or self._simulated:
             self._driver.cancel()
@@ -348,9 +354,10 @@ class RecordedInputs:
     def _observe(self) -> Observation:
         """Observe the robot as it is at this instant."""
         t = self._clock.look()
-        progress = self._driver.poll()
+        progress, unobserved = self._driver.poll(), None
         if self._goal_cut_off:
-            progress = self._cut_off(progress)
+            progress, unobserved = self._cut_off(progress)
+            t = self._clock.now()
         shared = self._driver if isinstance(self._driver, SharedNavigation) else None
         observation = Observation(
             t=t,
@@ -365,7 +372,10 @@ class RecordedInputs:
             events=self._events(),
             away=shared.away() if shared is not None else None,
             taken=shared.taken() if shared is not None else None,
+            odometer_m=self._driver.odometer_m() if isinstance(self._driver, Odometer) else None,
+            unobserved=unobserved,
         )
+        self._keep(observation)
         goal, changed = self._goal, observation.order != self._last_command
         self._last_command = observation.order
         self._record(observation.record(), commit=changed or (self._ends_goal(progress) and self._must_commit(goal)))
@@ -379,8 +389,17 @@ class RecordedInputs:
             self._driver.poll()
         if observation.progress.state == "cut_off":
             self._goal_cut_off = False
+        self._keep(observation)
         self._ends_goal(observation.progress)
         return observation
+
+    def _keep(self, observation: Observation) -> None:
+        """Keep what is needed to find out what the robot drives on during a power cut."""
+        self._last = observation
+        if observation.progress.state == "running":
+            self._goal_progress = observation.progress
+        if observation.unobserved is not None:
+            self.unobserved = observation.unobserved
 
     def _events(self) -> Mapping[str, float | None]:
         """Return the values of the watched events; those that the driver does not report are unknown."""
@@ -393,7 +412,8 @@ class RecordedInputs:
             return None
         now = self._wall.now()
         if self._away_s is None:
-            self._away_s = 0.0 if self._wall_seen is None else now - self._wall_seen
+            driven_s = 0.0 if self.unobserved is None else self.unobserved.seconds
+            self._away_s = 0.0 if self._wall_seen is None else now - self._wall_seen - driven_s
         return now - self._away_s
 
     def _ends_goal(self, progress: Progress) -> bool:
@@ -410,10 +430,11 @@ class RecordedInputs:
         """
         return isinstance(goal, ActionGoal) or not self._simulated or math.isfinite(self._clock.speed)
 
-    def _cut_off(self, progress: Progress) -> Progress:
-        """Return the state of a goal that a power cut interrupted, once the robot stands still.
+    def _cut_off(self, progress: Progress) -> tuple[Progress, UnobservedDrive | None]:
+        """Return the state of a goal that a power cut interrupted, once the robot stands still, and what it drove on.
 
-        The driver may have lost the distance of a drive: then the straight line is a lower bound.
+        A simulation has driven nothing meanwhile. A real robot drove on to the end of its goal, which a new driver has
+        not seen. The time of driving on counts.
         """
         timeout = StopTimeout(self._clock)
         while not progress.over:
@@ -423,17 +444,29 @@ class RecordedInputs:
             self._clock.look()
             progress = self._driver.poll()
         self._goal_cut_off = False
-        metres = 0.0
-        if isinstance(self._goal, DriveGoal) and self._goal_from is not None:
-            now = self._driver.position()
-            metres = max(progress.metres, math.dist(now.xy, self._goal_from.xy))
-        return dataclasses.replace(
+        cut_off = dataclasses.replace(
             progress,
             state="cut_off",
-            metres=metres,
             readings={},
             what=message("the power was cut while it was made", context="log"),
         )
+        if self._simulated or self._last is None or not isinstance(self._goal, DriveGoal):
+            return (cut_off if self._simulated else dataclasses.replace(cut_off, metres=0.0)), None
+        odometer_m = self._driver.odometer_m() if isinstance(self._driver, Odometer) else None
+        driven = drive_since(self._last, self._goal, self._driver.position(), odometer_m, within_s=self._absent_s())
+        before = self._goal_progress
+        self._clock.skip(driven.seconds)
+        # Positions that are known to some centimetres are no drive.
+        self.unobserved = driven if driven.is_seen else None
+        metres, seconds = before.metres + driven.metres, before.seconds + driven.seconds
+        return dataclasses.replace(cut_off, metres=metres, seconds=seconds), self.unobserved
+
+    def _absent_s(self) -> float:
+        """Return the seconds for which nobody looked at the robot; infinity if that is unknown."""
+        if self._wall is None or self._wall_seen is None:
+            return math.inf
+        passed = self._wall.now() - self._wall_seen
+        return passed if passed > 0.0 else math.inf
 
 
 def _discard(event: Event) -> None:

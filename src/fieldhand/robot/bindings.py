@@ -243,6 +243,14 @@ class BatteryBinding:
 
 
 @dataclass(frozen=True, kw_only=True)
+class OdometerBinding:
+    """The metres that the robot has driven since it was switched on, which it counts whoever drives it."""
+
+    topic: TopicBinding
+    value: FieldBinding
+
+
+@dataclass(frozen=True, kw_only=True)
 class StopBinding:
     """An emergency stop: active while the value at ``path`` equals ``stopped``."""
 
@@ -279,6 +287,7 @@ class Ros2Bindings:
         position: Position source.
         battery: Battery charge.
         odometry: ``nav_msgs/msg/Odometry`` along which driven metres are counted; None to count them along the fixes.
+        odometer: Counter of all metres, from which those driven during a power cut are known; None to estimate them.
         stop: Emergency stop; None if the robot has none.
         actions: Bindings by action name; an action without one cannot be executed on this robot.
         interfaces: Definitions of non-standard types by type, as in ``.msg``, ``.srv`` and ``.action`` files.
@@ -292,6 +301,7 @@ class Ros2Bindings:
     position: PositionBinding
     battery: BatteryBinding
     odometry: TopicBinding | None = None
+    odometer: OdometerBinding | None = None
     stop: StopBinding | None = None
     actions: Mapping[str, ActionBinding] = field(default_factory=dict)
     interfaces: Mapping[str, str] = field(default_factory=dict)

@@ -308,6 +308,13 @@ class OdometryDocument(_TopicDocument):
     stale_s: Stale = 3.0
 
 
+class OdometerDocument(_TopicDocument, _ConvertedDocument):
+    """The counter of all metres that the robot has driven."""
+
+    type: MessageType = "std_msgs/msg/Float64"
+    stale_s: Stale = 10.0
+
+
 class StopDocument(_TopicDocument):
     """An emergency stop."""
 
@@ -343,6 +350,7 @@ class Ros2Document(Keyed):
     position: PositionDocument
     battery: BatteryDocument
     odometry: OdometryDocument | None = None
+    odometer: OdometerDocument | None = None
     stop: StopDocument | None = None
     actions: dict[IdentifierField, ActionBindingDocument] = Field(default_factory=dict)
     events: dict[IdentifierField, EventBindingDocument] = Field(default_factory=dict)

@@ -224,10 +224,18 @@ class ChargeEnded:
     seconds: float
 
 
+#: Source of a distance that was driven unobserved: the robot's ``odometer``, which measured it; else it is estimated
+#: along the ``path`` of the drive, or straight on (``line``), which is the least that it can be. Empty for none.
+UnobservedBy = Literal["", "odometer", "path", "line"]
+
+
 @dataclass(frozen=True, kw_only=True)
 class Resumed:
     """The mission continues after a power failure from the robot's present position. The time without power does not
-    count.
+    count, but for that of driving on.
+
+    ``driven_m`` and ``driven_s`` are what the robot drove on meanwhile, to the end of its goal, known by ``driven_by``.
+    They count as driven.
     """
 
     event: ClassVar[str] = "resumed"
@@ -236,6 +244,9 @@ class Resumed:
     lat: float
     lon: float
     charge_percent: float
+    driven_m: float = 0.0
+    driven_s: float = 0.0
+    driven_by: UnobservedBy = ""
 
 
 @dataclass(frozen=True, kw_only=True)

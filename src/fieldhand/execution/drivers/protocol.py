@@ -208,6 +208,15 @@ class EventSource(Protocol):
 
 
 @runtime_checkable
+class Odometer(Protocol):
+    """A driver whose robot counts all metres that it drives, also while no program is connected to it."""
+
+    def odometer_m(self) -> float | None:
+        """Return the metres counted since the robot was switched on; None if it has no such counter."""
+        ...
+
+
+@runtime_checkable
 class SharedNavigation(Protocol):
     """A driver whose navigation is a program of its own, which can be restarted and which others can use, too."""
 

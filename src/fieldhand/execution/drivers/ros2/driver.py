@@ -223,6 +223,10 @@ class Ros2Driver:
     def taken(self) -> str | None:
         return self._navigation.taken()
 
+    def odometer_m(self) -> float | None:
+        self._telemetry.listen()
+        return self._telemetry.odometer_m
+
     def stopped(self) -> str | None:
         self._receive()
         return self._telemetry.stopped()

@@ -12,7 +12,14 @@ from fieldhand.execution.drivers.ros2.event_topics import event_value
 from fieldhand.execution.drivers.ros2.message_fields import number_at, value_at
 from fieldhand.execution.drivers.ros2.telemetry import MOST_PERCENT, fix_problem
 from fieldhand.execution.drivers.ros2.transport import RosMessage
-from fieldhand.robot.bindings import BatteryBinding, EventBinding, FieldBinding, PositionBinding, StopBinding
+from fieldhand.robot.bindings import (
+    BatteryBinding,
+    EventBinding,
+    FieldBinding,
+    OdometerBinding,
+    PositionBinding,
+    StopBinding,
+)
 from fieldhand.robot.events import MonitoredEvent
 from fieldhand.robot.model import Quantity
 
@@ -64,6 +71,18 @@ def odometry(message: RosMessage) -> str:
     """Check a ``nav_msgs/msg/Odometry`` message."""
     x, y = (_number(message, FieldBinding(path=f"pose.pose.position.{axis}")) for axis in "xy")
     return f"{x:.2f}, {y:.2f} m"
+
+
+def odometer(binding: OdometerBinding) -> MessageCheck:
+    """Return a check of the metres driven in all."""
+
+    def check_message(message: RosMessage) -> str:
+        metres = _number(message, binding.value)
+        if metres < 0.0:
+            raise ImplausibleMessage(f"{metres:g} m is no distance", "correct unit, scale or path of the odometer")
+        return f"{metres:.1f} m"
+
+    return check_message
 
 
 def stop(binding: StopBinding) -> MessageCheck:
