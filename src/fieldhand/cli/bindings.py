@@ -68,11 +68,15 @@ def _action(ros2: Ros2Bindings, name: str, bound: ActionBinding) -> Iterator[str
     for quantity, message in bound.topics.items():
         where = f"{ros2.whole_name(message.topic)} ({message.type})"
         yield f"  {name}: {quantity} = {_value(message.value)} of the next {where} within {message.within_s:g} s"
+    for label, image in bound.images.items():
+        where = f"{ros2.whole_name(image.topic)} ({image.type})"
+        yield f"  {name}: image {label} from the next {where} within {image.within_s:g} s"
 
 
 def _call(ros2: Ros2Bindings, call: CallBinding) -> str:
     asked = f" with {_named(call.request)}" if call.request else ""
     read = "".join(f"; {quantity} = {_value(value)}" for quantity, value in call.readings.items())
+    read += "".join(f"; image {label} = {path}" for label, path in call.images.items())
     flag = f"; it worked if {call.success}" if call.success else ""
     return f"{call.kind} {ros2.whole_name(call.name)} ({call.type}){asked} within {call.within_s:g} s{read}{flag}"
 

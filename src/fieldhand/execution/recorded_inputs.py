@@ -33,6 +33,9 @@ from fieldhand.execution.drivers.protocol import (
     SharedNavigation,
 )
 from fieldhand.execution.guard import Failsafe, Guard
+from fieldhand.execution.images.course import Course
+from fieldhand.execution.images.folder import ImageFolder, save_image
+from fieldhand.execution.images.metadata import ImageFacts
 from fieldhand.execution.journal.records import (
     InputLog,
     Observation,
@@ -54,7 +57,7 @@ from fieldhand.forecast.failsafe_state import FailsafeForecast, FailsafeState
 from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
 from fieldhand.language import message
 from fieldhand.task.event_lines import to_json
-from fieldhand.task.results import Event
+from fieldhand.task.results import Event, ImageFile
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -82,6 +85,7 @@ class RecordedInputs:
             stays
             where it is.
         watched: Names of the events that the mission watches.
+        images: Saves the images of captures; None to save none.
 
     Attributes:
         cuts: Number of power cuts so far.
@@ -101,8 +105,12 @@ class RecordedInputs:
         log: InputLog | None = None,
         simulated: bool = False,
         watched: Collection[str] = (),
+        images: ImageFolder | None = None,
     ) -> None:
         self.cuts = 0
+        self._images, self._files = images, tuple[ImageFile, ...]()
+        self._goals = 0
+        self._course = Course()
         self.unobserved: UnobservedDrive | None = None
         self._watched = tuple(watched)
         self._driver, self._guard, self._failsafe = driver, guard, failsafe
@@ -162,7 +170,8 @@ class RecordedInputs:
                 self._driver.start_drive(goal)
             else:
                 self._driver.start_action(goal)
-        self._goal, self._now = goal, None
+        self._goal, self._now, self._files = goal, None, ()
+        self._goals += 1
 
     def cancel(self) -> None:
         """Ask the driver to cancel the current goal."""
@@ -358,6 +367,7 @@ class RecordedInputs:
         if self._goal_cut_off:
             progress, unobserved = self._cut_off(progress)
             t = self._clock.now()
+        progress = self._with_files(progress)
         shared = self._driver if isinstance(self._driver, SharedNavigation) else None
         observation = Observation(
             t=t,
@@ -396,10 +406,30 @@ class RecordedInputs:
     def _keep(self, observation: Observation) -> None:
         """Keep what is needed to find out what the robot drives on during a power cut."""
         self._last = observation
+        self._course.add(observation.position)
+        self._files = observation.progress.files
         if observation.progress.state == "running":
             self._goal_progress = observation.progress
         if observation.unobserved is not None:
             self.unobserved = observation.unobserved
+
+    def _with_files(self, progress: Progress) -> Progress:
+        """Save the images of a capture that has just ended; its progress then names their files."""
+        if not progress.over or not (progress.images or self._files):
+            return progress
+        if isinstance(self._goal, ActionGoal) and progress.images:
+            facts = ImageFacts(
+                number=self._goals,
+                node=self._goal.node,
+                attempt=self._goal.attempt,
+                action=self._goal.action,
+                place=self._goal.place,
+                position=self._driver.position(),
+                heading_deg=self._course.heading_deg,
+                taken_s=None if self._wall is None else self._wall.now(),
+            )
+            self._files = tuple(save_image(self._images, image, facts) for image in progress.images)
+        return dataclasses.replace(progress, images=(), files=self._files)
 
     def _events(self) -> Mapping[str, float | None]:
         """Return the values of the watched events; those that the driver does not report are unknown."""

@@ -20,6 +20,7 @@ from fieldhand.robot.bindings import (
     EventBinding,
     FieldBinding,
     NavigationBinding,
+    NextImage,
     NextMessage,
     OdometerBinding,
     PositionBinding,
@@ -293,6 +294,15 @@ def _action(bound: ActionBindingDocument, action: ActionDocument, units: dict[st
             )
             for name, message in bound.topics.items()
         },
+        images={
+            name: NextImage(
+                topic=image.topic,
+                type=image.type,
+                within_s=image.within_s or max(_NEXT_S, _TIMES * (action.duration_s or 0.0)),
+                reliable=image.reliable,
+            )
+            for name, image in bound.images.items()
+        },
     )
 
 
@@ -309,6 +319,7 @@ def _call(bound: ActionBindingDocument, action: ActionDocument, units: dict[str,
         success=call.success or "",
         message=call.message or "",
         within_s=call.within_s or max(_LEAST_S, _TIMES * (action.duration_s or 0.0)),
+        images=call.images,
     )
 
 

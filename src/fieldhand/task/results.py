@@ -89,6 +89,25 @@ class Arrived:
 
 
 @dataclass(frozen=True, kw_only=True)
+class ImageFile:
+    """An image of a capture, as it was saved.
+
+    ``name`` is that of the profile, ``file`` the path below the mission's folder, with its ``sha256`` and size in
+    ``bytes``. ``encoding`` is that of the robot's message. Without a ``file`` the image was not saved, and ``what`` is
+    the reason.
+    """
+
+    name: str
+    file: str = ""
+    sha256: str = ""
+    bytes: int = 0
+    width: int = 0
+    height: int = 0
+    encoding: str = ""
+    what: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
 class Acted:
     """An action was done or failed. ``lat``/``lon`` are those of the tree or point where it was done.
 
@@ -112,6 +131,20 @@ class Acted:
     what: str = ""
     charge_percent: float = 100.0
     side: str = ""
+    images: tuple[ImageFile, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class ImageLost:
+    """An image was taken but could not be saved; recorded once for each reason."""
+
+    event: ClassVar[str] = "image_lost"
+    t: float
+    node: str
+    action: str
+    kind: str
+    place: str
+    what: str
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -507,6 +540,7 @@ Event = (
     | Driving
     | Arrived
     | Acted
+    | ImageLost
     | Working
     | Worked
     | InDoubt

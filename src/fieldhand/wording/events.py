@@ -35,6 +35,7 @@ from fieldhand.task.results import (
     EventEnded,
     Exited,
     Faulted,
+    ImageLost,
     InDoubt,
     LimitCrossed,
     MissionStatus,
@@ -101,6 +102,10 @@ class EventText:
                 )
             case Acted():
                 return self._acted(event)
+            case ImageLost():
+                return message(
+                    "{capture}: {what}", capture=noun(self._robot, event.action), what=kept_in_log(event.what)
+                )
             case Working():
                 return self._working(event)
             case Worked():
@@ -198,6 +203,8 @@ class EventText:
             joined(" ", [p for p in (say_name(q), say_number(value, 3), say_unit(event.units.get(q, ""))) if p])
             for q, value in event.readings.items()
         ]
+        if saved := sum(bool(image.file) for image in event.images):
+            readings.append(counted("{count} image", "{count} images", saved))
         if not readings:
             return capture
         return message("{capture}: {readings}", capture=capture, readings=joined(", ", readings))

@@ -15,6 +15,7 @@ from fieldhand.execution.operator_commands import OperatorCommand
 from fieldhand.execution.unobserved_drive import UnobservedDrive, unobserved_of
 from fieldhand.forecast.failsafe_state import FailsafeForecast
 from fieldhand.forecast.mission_state import Verdict, VisitChoice
+from fieldhand.task.results import ImageFile
 
 #: ``sight``: an observation. ``begun``: a goal is about to start. ``cancel``: its cancellation was requested.
 #: ``admit``, ``choose``: an answer of the guard. ``cut``: a power cut. ``interrupt``: a second Ctrl-C.
@@ -112,6 +113,8 @@ class Observation:
         if self.events:
             body["events"] = dict(self.events)
         body |= {name: why for name, why in (("away", self.away), ("taken", self.taken)) if why is not None}
+        if g.files:
+            body["images"] = [dataclasses.asdict(file) for file in g.files]
         if self.odometer_m is not None:
             body["odometer"] = self.odometer_m
         if self.unobserved is not None:
@@ -134,7 +137,15 @@ def observation_of(record: Record) -> Observation:
             t=float(body["t"]),
             position=Position(x=x, y=y, lat=lat, lon=lon),
             charge_percent=float(body["charge"]),
-            progress=Progress(state=state, metres=metres, seconds=seconds, readings=readings, what=what, fault=fault),
+            progress=Progress(
+                state=state,
+                metres=metres,
+                seconds=seconds,
+                readings=readings,
+                what=what,
+                fault=fault,
+                files=tuple(ImageFile(**file) for file in body.get("images", ())),
+            ),
             stopped=body["stopped"],
             lost=body["lost"],
             wall=body["wall"],

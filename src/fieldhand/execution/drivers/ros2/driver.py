@@ -317,6 +317,7 @@ class Ros2Driver:
             metres=self._telemetry.metres - self._begun_m,
             seconds=max(0.0, self._clock.now() - self._begun_s),
             readings=ending.readings,
+            images=ending.images,
             what=ending.what,
             fault=ending.fault,
         )

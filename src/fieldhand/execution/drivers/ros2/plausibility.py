@@ -8,7 +8,9 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.ros2.event_topics import event_value
+from fieldhand.execution.drivers.ros2.images import image_of
 from fieldhand.execution.drivers.ros2.message_fields import number_at, value_at
 from fieldhand.execution.drivers.ros2.telemetry import MOST_PERCENT, fix_problem
 from fieldhand.execution.drivers.ros2.transport import RosMessage
@@ -118,6 +120,19 @@ def reading(binding: FieldBinding, quantity: Quantity) -> MessageCheck:
                 "correct the unit, scale or path of this reading, or the range of the quantity",
             )
         return f"{value:g} {quantity.unit}"
+
+    return check_message
+
+
+def image(name: str) -> MessageCheck:
+    """Return a check of images."""
+
+    def check_message(message: RosMessage) -> str:
+        try:
+            found = image_of(message, name, "the topic")
+        except Ros2Error as error:
+            raise ImplausibleMessage(error.what, error.advice or "publish another kind of image") from None
+        return f"{found.width} x {found.height} pixels, {found.encoding}"
 
     return check_message
 

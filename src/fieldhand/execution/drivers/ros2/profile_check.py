@@ -216,6 +216,13 @@ class _Bindings:
                     [(bound_topic.value.path, _NUMBERS)],
                     rare=action.call is not None,
                 )
+            for label, image in action.images.items():
+                yield self._topic(
+                    f"{part}: image {label}",
+                    TopicBinding(topic=image.topic, type=image.type, stale_s=image.within_s, reliable=image.reliable),
+                    plausibility.image(label),
+                    rare=action.call is not None,
+                )
 
     def _position(self, ros2: Ros2Bindings) -> _Bound:
         bound = self._topic("position", ros2.position.fix, plausibility.position(ros2.position))
