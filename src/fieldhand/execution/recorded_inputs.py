@@ -52,6 +52,7 @@ from fieldhand.execution.journal.records import (
 )
 from fieldhand.execution.mission_clock import LOOK_EVERY_S, MissionClock, StopTimeout
 from fieldhand.execution.operator_commands import OperatorCommand
+from fieldhand.execution.robot_text import robot_text, robot_text_or_none
 from fieldhand.execution.unobserved_drive import UnobservedDrive, drive_since
 from fieldhand.forecast.failsafe_state import FailsafeForecast, FailsafeState
 from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
@@ -207,7 +208,8 @@ class RecordedInputs:
             self._clock.rest()
             # A real robot, including its emergency stop, is only heard while it is polled.
             self._driver.poll()
-            news = self._current_command() != before.order or self._driver.stopped() != before.stopped
+            stopped = robot_text_or_none(self._driver.stopped())
+            news = self._current_command() != before.order or stopped != before.stopped
             if news or noteworthy(self._clock.look(), self._driver.charge_percent()):
                 self._now = self._observe()
                 return
@@ -368,20 +370,22 @@ class RecordedInputs:
             progress, unobserved = self._cut_off(progress)
             t = self._clock.now()
         progress = self._with_files(progress)
+        if progress.what:
+            progress = dataclasses.replace(progress, what=robot_text(progress.what))
         shared = self._driver if isinstance(self._driver, SharedNavigation) else None
         observation = Observation(
             t=t,
             position=self._driver.position(),
             charge_percent=self._driver.charge_percent(),
             progress=progress,
-            stopped=self._driver.stopped(),
-            lost=self._driver.lost(),
+            stopped=robot_text_or_none(self._driver.stopped()),
+            lost=robot_text_or_none(self._driver.lost()),
             wall=self._time_of_day(),
             next_in=self._driver.next_event_in(),
             order=self._current_command(),
             events=self._events(),
-            away=shared.away() if shared is not None else None,
-            taken=shared.taken() if shared is not None else None,
+            away=robot_text_or_none(shared.away()) if shared is not None else None,
+            taken=robot_text_or_none(shared.taken()) if shared is not None else None,
             odometer_m=self._driver.odometer_m() if isinstance(self._driver, Odometer) else None,
             unobserved=unobserved,
         )

@@ -29,6 +29,7 @@ from fieldhand.execution.drivers.ros2.transport import (
     Subscription,
     Transport,
 )
+from fieldhand.execution.robot_text import robot_text
 from fieldhand.robot.bindings import ActionBinding, CallBinding, NextImage, NextMessage, RequestValue, Ros2Bindings
 
 #: Seconds to find an action server, and to get a goal accepted.
@@ -352,7 +353,8 @@ def _reading(quantity: str, value: float | None) -> Readings:
 def _failure_message(result: RosMessage, call: CallBinding) -> str:
     """Return the failure message of a reply, with a leading colon; empty if it has none."""
     words = value_at(result, call.message) if call.message else None
-    return f": {words.strip()}" if isinstance(words, str) and words.strip() else ""
+    said = robot_text(words.strip()) if isinstance(words, str) else ""
+    return f": {said}" if said else ""
 
 
 def _failed(what: str) -> GoalEnd:

@@ -14,6 +14,7 @@ from fieldhand.execution.drivers.ros2.images import image_of
 from fieldhand.execution.drivers.ros2.message_fields import number_at, value_at
 from fieldhand.execution.drivers.ros2.telemetry import MOST_PERCENT, fix_problem
 from fieldhand.execution.drivers.ros2.transport import RosMessage
+from fieldhand.execution.robot_text import robot_text
 from fieldhand.robot.bindings import (
     BatteryBinding,
     EventBinding,
@@ -94,7 +95,7 @@ def stop(binding: StopBinding) -> MessageCheck:
         value = value_at(message, binding.path)
         if not isinstance(value, bool):
             raise ImplausibleMessage(
-                f"{binding.path} is {value!r}, neither true nor false", "correct the path of the stop"
+                f"{binding.path} is {robot_text(repr(value))}, neither true nor false", "correct the path of the stop"
             )
         if value == binding.stopped:
             raise ImplausibleMessage("the robot is stopped", "release the emergency stop")
@@ -143,8 +144,9 @@ def event(binding: EventBinding, known: MonitoredEvent) -> MessageCheck:
     def check_message(message: RosMessage) -> str:
         value = event_value(message, binding)
         if value is None:
+            found = robot_text(repr(value_at(message, binding.value.path)))
             raise ImplausibleMessage(
-                f"{binding.value.path} is {value_at(message, binding.value.path)!r}, neither true, false nor a number",
+                f"{binding.value.path} is {found}, neither true, false nor a number",
                 "correct the path of the event",
             )
         if known.unit:
@@ -158,7 +160,7 @@ def _number(message: RosMessage, binding: FieldBinding) -> float:
     number = number_at(message, binding)
     if number is None or not math.isfinite(number):
         raise ImplausibleMessage(
-            f"{binding.path} is {value_at(message, binding.path)!r}, no number",
+            f"{binding.path} is {robot_text(repr(value_at(message, binding.path)))}, no number",
             "check whether the robot measures it, or take another field",
         )
     return number

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from fieldhand.execution.drivers.protocol import Position
 from fieldhand.execution.drivers.ros2.message_fields import number_at, seconds_at, value_at
 from fieldhand.execution.drivers.ros2.transport import QosProfile, RosMessage, Subscription, Transport
+from fieldhand.execution.robot_text import robot_text
 from fieldhand.robot.bindings import FieldBinding, PositionBinding, Ros2Bindings, TopicBinding
 from fieldhand.site.projection import Projection
 
@@ -325,7 +326,7 @@ class Telemetry:
         value = value_at(message, self._stop_binding.path)
         if not isinstance(value, bool):
             # An unreadable emergency stop must not pass for one that is not pressed.
-            self._stop.problem = f"{self._stop_binding.path} is {value!r}, neither true nor false"
+            self._stop.problem = f"{self._stop_binding.path} is {robot_text(repr(value))}, neither true nor false"
             return
         self._stop.at_s = now
         if value == self._stop_binding.stopped:
