@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import hashlib
 import json
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
@@ -12,11 +13,18 @@ import pytest
 import yaml
 from PIL import ExifTags, Image
 
-from fieldhand import missions
+from fieldhand import mission, missions
+from fieldhand.approval.authorize import EveryWarning
+from fieldhand.execution.guard import NoGuard
+from fieldhand.execution.images.folder import ImageFolder
 from fieldhand.execution.journal import store
-from fieldhand.robot.loader import profile_bytes
+from fieldhand.execution.mission_runner import run
+from fieldhand.planning.english.planner import EnglishPlanner
+from fieldhand.planning.planner import Planned
+from fieldhand.robot.loader import load_robot, profile_bytes
 from fieldhand.site.loader import open_site
-from fieldhand.task.results import Acted, Event
+from fieldhand.task.results import Acted, Event, ImageLost
+from ros2.robot_in_process import connected_simulated_robot
 from ros2.sim_robots import patient, sim_robot
 from support.processes.command import fieldhand, in_background
 from support.processes.patience import until
@@ -63,8 +71,8 @@ def test_images_are_saved_and_referenced(tmp_path: Path) -> None:
     """Killed after the first capture, and resumed."""
     under, husky, out = tmp_path / "m", with_cameras(tmp_path), tmp_path / "out"
     with sim_robot(tmp_path, "--site", "demo", "--robot", husky, "--speed", FAST) as robot:
-        run = ("run", REQUEST, "--site", "demo", "--robot", husky, "--yes", "--confirm", "--missions", str(under))
-        with in_background(*run, *robot.reached, out=tmp_path / "run.txt"):
+        words = ("run", REQUEST, "--site", "demo", "--robot", husky, "--yes", "--confirm", "--missions", str(under))
+        with in_background(*words, *robot.reached, out=tmp_path / "run.txt"):
             until(lambda: len(captures(under)) >= 1)
         (folder,) = under.iterdir()
         until(lambda: not missions.is_running(folder))
@@ -172,3 +180,43 @@ def test_images_of_a_call_and_of_an_action_without_readings(tmp_path: Path) -> N
     assert image.file.endswith("-front.jpg")
     (folder,) = under.iterdir()
     assert (folder / image.file).exists()
+
+
+@pytest.mark.parametrize("measures", [True, False])
+def test_a_full_disk_loses_images_and_keeps_readings(tmp_path: Path, measures: bool) -> None:
+    """A capture of nothing but images fails without them, and says why."""
+    path = Path(with_cameras(tmp_path))
+    robot: dict[str, Any] = yaml.safe_load(path.read_text())
+    request = "Take a thermal picture of tree 5."
+    if not measures:
+        robot["actions"]["look"] = {"description": "Look", "words": ["portrait"], "duration_s": 1, "energy_j": 1}
+        robot["ros2"]["actions"]["look"] = {"images": {"rgb": {"topic": "camera/image_raw", "within_s": 600}}}
+        request = "Take a portrait of tree 5."
+    path.write_text(yaml.safe_dump(robot, sort_keys=False))
+    site, husky = open_site("demo"), load_robot(str(path))
+    planned = mission.plan(request, site, husky, EnglishPlanner())
+    assert isinstance(planned, Planned), planned
+    review = mission.review(planned.task, site, husky)
+    approved = mission.authorize(review, by="x", at=datetime(2026, 1, 1, tzinfo=UTC), confirmed=EveryWarning())
+    with connected_simulated_robot("demo", str(path), planned.task, seed=0, tick_s=0.5) as (vehicle, _):
+        result = run(
+            approved.authorized,
+            site=site,
+            robot=husky,
+            driver=vehicle.driver,
+            guard=NoGuard(),
+            clock=vehicle.clock,
+            emit=lambda _: None,
+            images=ImageFolder(mission_folder=tmp_path, least_free=10**18),
+        )
+    tried = [event for event in result.events if isinstance(event, Acted)]
+    (lost,) = (event for event in result.events if isinstance(event, ImageLost))
+    assert "MB are free on the disk" in lost.what
+    assert all(image.file == "" and image.what == lost.what for event in tried for image in event.images)
+    if measures:
+        assert [event.status for event in tried] == ["success"]
+        assert tried[0].readings
+    else:
+        assert [event.status for event in tried] == ["failed", "failed"]
+        assert tried[0].what == lost.what
+    assert not list((tmp_path / "images").iterdir())

@@ -8,6 +8,7 @@ WGS 84.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import ClassVar, Literal
@@ -86,6 +87,10 @@ class Arrived:
     travelled_m: float
     charge_percent: float
     side: str = ""
+
+
+#: Paths of images that a mission writes; a log of others may name anything.
+IMAGE_PATH = re.compile(r"images/(?P<name>[A-Za-z0-9_-]{1,150}\.(?:png|jpg|tif))")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import hashlib
 import io
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,7 +16,7 @@ from fieldhand.clock import clock_time
 from fieldhand.evaluation.report.place_names import PlaceNames
 from fieldhand.files import FileFault, read_file, write_whole
 from fieldhand.language.words import capitalised, say_action, say_count
-from fieldhand.task.results import Acted, Event, ImageFile
+from fieldhand.task.results import IMAGE_PATH, Acted, Event, ImageFile
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -26,8 +25,6 @@ if TYPE_CHECKING:
 MOST_IMAGES = 60
 #: Longest side of a thumbnail in pixels, its JPEG quality, and the largest file that is read.
 _SIDE, _QUALITY, _MOST_BYTES = 320, 70, 300_000_000
-#: Form of the paths that a mission writes; a log may name anything.
-_PATH = re.compile(r"images/[A-Za-z0-9_-]{1,150}\.(?:png|jpg|tif)")
 #: Percentiles between which a thumbnail of measured values is spread.
 _DARK, _BRIGHT = 1.0, 99.0
 
@@ -98,7 +95,7 @@ def saved_images(events: Sequence[Event]) -> Iterator[ImageFile]:
 
 def read_image(image: ImageFile, source: Path) -> tuple[bytes, str]:
     """Return the bytes of an image, or why they are not those that were saved."""
-    if not _PATH.fullmatch(image.file):
+    if not IMAGE_PATH.fullmatch(image.file):
         return b"", "its name is not one that a mission gives"
     try:
         data = read_file(source / image.file, _MOST_BYTES, plain=True)

@@ -7,17 +7,16 @@ import re
 from pathlib import Path
 
 from fieldhand.files import FileFault, read_file
-from fieldhand.task.results import ImageFile
+from fieldhand.task.results import IMAGE_PATH, ImageFile
 
 #: Largest image in bytes that a file includes: a record is bounded when it is read.
 _MOST_BYTES = 40_000_000
-_PATH = re.compile(r"images/[A-Za-z0-9_-]{1,150}\.(?:png|jpg|tif)")
 _NAME = re.compile(r"[a-z][a-z0-9_]{0,59}")
 
 
 def image_data(folder: Path | None, image: ImageFile) -> bytes | None:
     """Return the bytes of an image; None if they are not those that were saved, or too many."""
-    if folder is None or not _PATH.fullmatch(image.file) or not _NAME.fullmatch(image.name):
+    if folder is None or not IMAGE_PATH.fullmatch(image.file) or not _NAME.fullmatch(image.name):
         return None
     try:
         data = read_file(folder / image.file, _MOST_BYTES, plain=True)
