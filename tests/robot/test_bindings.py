@@ -194,7 +194,7 @@ def test_units_are_those_of_physics() -> None:
         ({"battery__type": "my_msgs/Pack"}, "'my_msgs/Pack' is not a type here; write package/msg/Name"),
         ({"stop": {"topic": "stop", "stopped": "maybe"}}, "ros2.stop.stopped: "),
         ({"actions__probe": ROVER["ros2"]["actions"]["probe_soil"]}, "no action 'probe'; did you mean 'probe_soil'?"),
-        ({"actions__probe_soil": {}}, "nothing performs the action; give action, service or topics"),
+        ({"actions__probe_soil": {}}, "nothing performs the action; give action, service, topics or images"),
         (
             {"actions__probe_soil__service": {"name": "p", "type": "std_srvs/srv/Trigger"}},
             "both action and service are given; give only one of them",

@@ -51,6 +51,7 @@ from fieldhand.task.results import (
     Driving,
     Event,
     Faulted,
+    ImageLost,
     InDoubt,
     MissionStatus,
     Resumed,
@@ -145,6 +146,7 @@ class ActiveMission:
         self._cuts = 0
         self._open: OpenDrive | OpenCapture | OpenManeuver | None = None
         self._recorded: Progress | None = None
+        self._lost_images: set[str] = set()
         self.events: list[Event] = []
         self.here = start_place(drives)
         self.standing = self._stands()
@@ -443,7 +445,8 @@ class ActiveMission:
     def start_capture(self, node: str, action: str, parameters: Mapping[str, str | float], number: int) -> None:
         """Start the ``number``-th attempt at a capture."""
         self._open = OpenCapture(node=node, action=action, number=number)
-        self.controller.start(ActionGoal(action=action, place=self.here, parameters=parameters))
+        goal = ActionGoal(action=action, place=self.here, parameters=parameters, node=node, attempt=number)
+        self.controller.start(goal)
 
     # --- charging ------------------------------------------------------------------------------------------------
 
@@ -573,7 +576,12 @@ class ActiveMission:
         if self.inputs.cuts != self._cuts:
             self._cuts = self.inputs.cuts
             at = self.observation.position
-            self.emit(Resumed(t=self.t, lat=at.lat, lon=at.lon, charge_percent=self.charge_percent()))
+            resumed = Resumed(t=self.t, lat=at.lat, lon=at.lon, charge_percent=self.charge_percent())
+            if (driven := self.inputs.unobserved) is not None:
+                resumed = dataclasses.replace(
+                    resumed, driven_m=driven.metres, driven_s=driven.seconds, driven_by=driven.by
+                )
+            self.emit(resumed)
 
     def emit_arrived(self, node: str, place: Place, leg_m: float) -> None:
         """Record that the robot has arrived at a place."""
@@ -680,8 +688,13 @@ class ActiveMission:
             why = (unusable(self.robot, q, progress.readings.get(q)) for q in action.measures)
             if what := next(filter(None, why), ""):
                 progress = dataclasses.replace(progress, state="failed", fault="failed", readings={}, what=what)
+        lost = [file for file in progress.files if not file.file]
+        if progress.state == "succeeded" and lost and not action.measures and len(lost) == len(progress.files):
+            progress = dataclasses.replace(progress, state="failed", fault="failed", what=lost[0].what)
         done = progress.state == "succeeded"
         self._done += done
+        for what in dict.fromkeys(file.what for file in lost):
+            self._record_lost_image(open_, what)
         self.emit(
             Acted(
                 t=self.t,
@@ -698,9 +711,21 @@ class ActiveMission:
                 units={q: self.robot.quantity[q].unit for q in action.measures} if done else {},
                 what=progress.what,
                 charge_percent=self.charge_percent(),
+                images=progress.files,
             )
         )
         return progress
+
+    def _record_lost_image(self, open_: OpenCapture, what: str) -> None:
+        """Record that images are not saved, once for each reason."""
+        if what in self._lost_images:
+            return
+        self._lost_images.add(what)
+        self.emit(
+            ImageLost(
+                t=self.t, node=open_.node, action=open_.action, kind=self.here.kind, place=self.here.id, what=what
+            )
+        )
 
     def _context(self, here: Place) -> Context:
         return Context(here=here, visited=tuple(self.visited), bound=dict(self.bound), series=dict(self.series))

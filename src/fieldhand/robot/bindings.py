@@ -87,6 +87,27 @@ class NextMessage:
     reliable: bool = False
 
 
+#: Message types of images.
+ImageType = Literal["sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class NextImage:
+    """An image taken from the next message of a topic after the capture began, or after its call returned.
+
+    Attributes:
+        topic: Name of the topic, to which the program subscribes only during the capture.
+        type: Message type.
+        within_s: Maximum wait for the message, in seconds.
+        reliable: Request reliable delivery.
+    """
+
+    topic: str
+    type: ImageType
+    within_s: float
+    reliable: bool = False
+
+
 @dataclass(frozen=True, kw_only=True)
 class CallBinding:
     """A call of a ROS action or service that makes a capture.
@@ -101,6 +122,7 @@ class CallBinding:
         success: Path of the success flag; empty if there is none.
         message: Path of the text that explains a failure; empty if there is none.
         within_s: Maximum time from sending the request to the result, in seconds.
+        images: Path of each image in the result or response, by its name.
     """
 
     kind: Literal["action", "service"]
@@ -111,6 +133,7 @@ class CallBinding:
     success: str = ""
     message: str = ""
     within_s: float
+    images: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -146,11 +169,13 @@ class ActionBinding:
         topics: Quantities read from topics, each from the next message after the call; if none arrives in time, from
             the last message since the call was sent.
         switch: Switch of an implement; None for an action at a place.
+        images: Images taken from topics, by name, in the same way.
     """
 
     call: CallBinding | None = None
     topics: Mapping[str, NextMessage] = field(default_factory=dict)
     switch: SwitchBinding | None = None
+    images: Mapping[str, NextImage] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -243,6 +268,14 @@ class BatteryBinding:
 
 
 @dataclass(frozen=True, kw_only=True)
+class OdometerBinding:
+    """The metres that the robot has driven since it was switched on, which it counts whoever drives it."""
+
+    topic: TopicBinding
+    value: FieldBinding
+
+
+@dataclass(frozen=True, kw_only=True)
 class StopBinding:
     """An emergency stop: active while the value at ``path`` equals ``stopped``."""
 
@@ -279,6 +312,7 @@ class Ros2Bindings:
         position: Position source.
         battery: Battery charge.
         odometry: ``nav_msgs/msg/Odometry`` along which driven metres are counted; None to count them along the fixes.
+        odometer: Counter of all metres, from which those driven during a power cut are known; None to estimate them.
         stop: Emergency stop; None if the robot has none.
         actions: Bindings by action name; an action without one cannot be executed on this robot.
         interfaces: Definitions of non-standard types by type, as in ``.msg``, ``.srv`` and ``.action`` files.
@@ -292,6 +326,7 @@ class Ros2Bindings:
     position: PositionBinding
     battery: BatteryBinding
     odometry: TopicBinding | None = None
+    odometer: OdometerBinding | None = None
     stop: StopBinding | None = None
     actions: Mapping[str, ActionBinding] = field(default_factory=dict)
     interfaces: Mapping[str, str] = field(default_factory=dict)

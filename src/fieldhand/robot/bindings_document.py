@@ -16,6 +16,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, mod
 from fieldhand.robot.bindings import (
     NAVIGATION_NODES,
     Distro,
+    ImageType,
     NavigationFault,
     NavigationType,
     RequestValue,
@@ -28,6 +29,8 @@ _LONGEST_NAME = 255
 #: Maximum length of an interface definition in characters, and maximum number of definitions: they are part of every
 #: bundle.
 _LONGEST_TEXT, _MOST_INTERFACES = 20_000, 50
+#: Maximum number of images of a capture.
+_MOST_IMAGES = 8
 #: Number of separator lines (``---``) in the definition of each kind of interface.
 _SECTIONS = {"msg": 0, "srv": 1, "action": 2}
 
@@ -152,6 +155,15 @@ class NextMessageDocument(_ConvertedDocument):
     reliable: bool = False
 
 
+class NextImageDocument(Keyed):
+    """An image taken from the next message of a topic."""
+
+    topic: RosName
+    type: ImageType = "sensor_msgs/msg/Image"
+    within_s: TimeLimitField | None = None
+    reliable: bool = False
+
+
 class _CallDocument(Keyed):
     """The keys shared by action and service calls."""
 
@@ -161,6 +173,7 @@ class _CallDocument(Keyed):
     success: FieldPath | None = None
     message: FieldPath | None = None
     within_s: TimeLimitField | None = None
+    images: Annotated[dict[IdentifierField, FieldPath], Field(max_length=_MOST_IMAGES)] = Field(default_factory=dict)
 
 
 class ActionCallDocument(_CallDocument):
@@ -228,18 +241,24 @@ class ActionBindingDocument(Keyed):
     action: ActionCallDocument | None = None
     service: ServiceCallDocument | None = None
     topics: dict[str, NextMessageDocument] = Field(default_factory=dict)
+    images: Annotated[dict[IdentifierField, NextImageDocument], Field(max_length=_MOST_IMAGES)] = Field(
+        default_factory=dict
+    )
     switch: SwitchDocument | None = None
 
     @model_validator(mode="after")
     def _by_something(self) -> ActionBindingDocument:
         if self.switch is not None:
-            if self.action is not None or self.service is not None or self.topics:
-                raise ValueError("switch belongs to an implement; leave action, service and topics out")
+            if self.action is not None or self.service is not None or self.topics or self.images:
+                raise ValueError("switch belongs to an implement; leave action, service, topics and images out")
             return self
         if self.action is not None and self.service is not None:
             raise ValueError("both action and service are given; give only one of them")
-        if self.action is None and self.service is None and not self.topics:
-            raise ValueError("nothing performs the action; give action, service or topics")
+        call = self.action or self.service
+        if call is None and not self.topics and not self.images:
+            raise ValueError("nothing performs the action; give action, service, topics or images")
+        if call is not None and (twice := sorted(call.images.keys() & self.images.keys())):
+            raise ValueError(f"the image {twice[0]} is given twice; keep it either in the call or in images")
         return self
 
 
@@ -308,6 +327,13 @@ class OdometryDocument(_TopicDocument):
     stale_s: Stale = 3.0
 
 
+class OdometerDocument(_TopicDocument, _ConvertedDocument):
+    """The counter of all metres that the robot has driven."""
+
+    type: MessageType = "std_msgs/msg/Float64"
+    stale_s: Stale = 10.0
+
+
 class StopDocument(_TopicDocument):
     """An emergency stop."""
 
@@ -343,6 +369,7 @@ class Ros2Document(Keyed):
     position: PositionDocument
     battery: BatteryDocument
     odometry: OdometryDocument | None = None
+    odometer: OdometerDocument | None = None
     stop: StopDocument | None = None
     actions: dict[IdentifierField, ActionBindingDocument] = Field(default_factory=dict)
     events: dict[IdentifierField, EventBindingDocument] = Field(default_factory=dict)

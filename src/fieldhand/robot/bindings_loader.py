@@ -20,7 +20,9 @@ from fieldhand.robot.bindings import (
     EventBinding,
     FieldBinding,
     NavigationBinding,
+    NextImage,
     NextMessage,
+    OdometerBinding,
     PositionBinding,
     Ros2Bindings,
     StopBinding,
@@ -33,6 +35,7 @@ from fieldhand.robot.bindings_document import (
     EventBindingDocument,
     NavigationDocument,
     NextMessageDocument,
+    OdometerDocument,
     OdometryDocument,
     PositionDocument,
     ReadingDocument,
@@ -50,7 +53,7 @@ _TIMES, _LEAST_S = 3.0, 30.0
 #: Default wait for the next message of a topic, in seconds.
 _NEXT_S = 10.0
 
-Valued = ReadingDocument | NextMessageDocument | BatteryDocument | EventBindingDocument
+Valued = ReadingDocument | NextMessageDocument | BatteryDocument | OdometerDocument | EventBindingDocument
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,6 +84,9 @@ def bindings_of(document: ProfileDocument) -> Ros2Bindings | None:
         position=PositionBinding(fix=_topic(ros2.position), most_sigma_m=ros2.position.most_sigma_m),
         battery=BatteryBinding(topic=_topic(ros2.battery), value=_field(ros2.battery, ros2.battery.type, "percent")),
         odometry=None if ros2.odometry is None else _topic(ros2.odometry),
+        odometer=None
+        if ros2.odometer is None
+        else OdometerBinding(topic=_topic(ros2.odometer), value=_field(ros2.odometer, ros2.odometer.type, "m")),
         stop=None
         if ros2.stop is None
         else StopBinding(topic=_topic(ros2.stop), path=ros2.stop.path, stopped=ros2.stop.stopped),
@@ -93,6 +99,8 @@ def bindings_of(document: ProfileDocument) -> Ros2Bindings | None:
 def _binding_problems(document: ProfileDocument, ros2: Ros2Document) -> Iterator[ProfileProblem]:
     units = {name: quantity.unit for name, quantity in document.quantities.items()}
     yield from _unreadable(ros2.battery, ros2.battery.type, "percent", "ros2.battery")
+    if ros2.odometer is not None:
+        yield from _unreadable(ros2.odometer, ros2.odometer.type, "m", "ros2.odometer")
     yield from _event_problems(document, ros2)
     doable = document.doable
     for name, bound in ros2.actions.items():
@@ -232,7 +240,12 @@ def _place_and_unit(valued: Valued, type_name: str) -> tuple[str, str]:
 
 
 def _topic(
-    document: PositionDocument | BatteryDocument | OdometryDocument | StopDocument | EventBindingDocument,
+    document: PositionDocument
+    | BatteryDocument
+    | OdometryDocument
+    | OdometerDocument
+    | StopDocument
+    | EventBindingDocument,
 ) -> TopicBinding:
     return TopicBinding(
         topic=document.topic,
@@ -281,6 +294,15 @@ def _action(bound: ActionBindingDocument, action: ActionDocument, units: dict[st
             )
             for name, message in bound.topics.items()
         },
+        images={
+            name: NextImage(
+                topic=image.topic,
+                type=image.type,
+                within_s=image.within_s or max(_NEXT_S, _TIMES * (action.duration_s or 0.0)),
+                reliable=image.reliable,
+            )
+            for name, image in bound.images.items()
+        },
     )
 
 
@@ -297,6 +319,7 @@ def _call(bound: ActionBindingDocument, action: ActionDocument, units: dict[str,
         success=call.success or "",
         message=call.message or "",
         within_s=call.within_s or max(_LEAST_S, _TIMES * (action.duration_s or 0.0)),
+        images=call.images,
     )
 
 

@@ -8,6 +8,7 @@ WGS 84.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import ClassVar, Literal
@@ -88,6 +89,29 @@ class Arrived:
     side: str = ""
 
 
+#: Paths of images that a mission writes; a log of others may name anything.
+IMAGE_PATH = re.compile(r"images/(?P<name>[A-Za-z0-9_-]{1,150}\.(?:png|jpg|tif))")
+
+
+@dataclass(frozen=True, kw_only=True)
+class ImageFile:
+    """An image of a capture, as it was saved.
+
+    ``name`` is that of the profile, ``file`` the path below the mission's folder, with its ``sha256`` and size in
+    ``bytes``. ``encoding`` is that of the robot's message. Without a ``file`` the image was not saved, and ``what`` is
+    the reason.
+    """
+
+    name: str
+    file: str = ""
+    sha256: str = ""
+    bytes: int = 0
+    width: int = 0
+    height: int = 0
+    encoding: str = ""
+    what: str = ""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Acted:
     """An action was done or failed. ``lat``/``lon`` are those of the tree or point where it was done.
@@ -112,6 +136,20 @@ class Acted:
     what: str = ""
     charge_percent: float = 100.0
     side: str = ""
+    images: tuple[ImageFile, ...] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class ImageLost:
+    """An image was taken but could not be saved; recorded once for each reason."""
+
+    event: ClassVar[str] = "image_lost"
+    t: float
+    node: str
+    action: str
+    kind: str
+    place: str
+    what: str
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -224,10 +262,18 @@ class ChargeEnded:
     seconds: float
 
 
+#: Source of a distance that was driven unobserved: the robot's ``odometer``, which measured it; else it is estimated
+#: along the ``path`` of the drive, or straight on (``line``), which is the least that it can be. Empty for none.
+UnobservedBy = Literal["", "odometer", "path", "line"]
+
+
 @dataclass(frozen=True, kw_only=True)
 class Resumed:
     """The mission continues after a power failure from the robot's present position. The time without power does not
-    count.
+    count, but for that of driving on.
+
+    ``driven_m`` and ``driven_s`` are what the robot drove on meanwhile, to the end of its goal, known by ``driven_by``.
+    They count as driven.
     """
 
     event: ClassVar[str] = "resumed"
@@ -236,6 +282,9 @@ class Resumed:
     lat: float
     lon: float
     charge_percent: float
+    driven_m: float = 0.0
+    driven_s: float = 0.0
+    driven_by: UnobservedBy = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -496,6 +545,7 @@ Event = (
     | Driving
     | Arrived
     | Acted
+    | ImageLost
     | Working
     | Worked
     | InDoubt

@@ -223,6 +223,10 @@ class Ros2Driver:
     def taken(self) -> str | None:
         return self._navigation.taken()
 
+    def odometer_m(self) -> float | None:
+        self._telemetry.listen()
+        return self._telemetry.odometer_m
+
     def stopped(self) -> str | None:
         self._receive()
         return self._telemetry.stopped()
@@ -313,6 +317,7 @@ class Ros2Driver:
             metres=self._telemetry.metres - self._begun_m,
             seconds=max(0.0, self._clock.now() - self._begun_s),
             readings=ending.readings,
+            images=ending.images,
             what=ending.what,
             fault=ending.fault,
         )

@@ -186,6 +186,9 @@ class _Bindings:
         yield self._topic("battery", ros2.battery.topic, plausibility.battery(ros2.battery), [(charge.path, _NUMBERS)])
         if ros2.odometry is not None:
             yield self._topic("odometry", ros2.odometry, plausibility.odometry)
+        if ros2.odometer is not None:
+            counter, value = ros2.odometer, ros2.odometer.value
+            yield self._topic("odometer", counter.topic, plausibility.odometer(counter), [(value.path, _NUMBERS)])
         if ros2.stop is not None:
             yield self._topic("stop", ros2.stop.topic, plausibility.stop(ros2.stop), [(ros2.stop.path, ("bool",))])
         for name, event in ros2.events.items():
@@ -211,6 +214,13 @@ class _Bindings:
                     ),
                     plausibility.reading(bound_topic.value, self._profile.quantity[quantity]),
                     [(bound_topic.value.path, _NUMBERS)],
+                    rare=action.call is not None,
+                )
+            for label, image in action.images.items():
+                yield self._topic(
+                    f"{part}: image {label}",
+                    TopicBinding(topic=image.topic, type=image.type, stale_s=image.within_s, reliable=image.reliable),
+                    plausibility.image(label),
                     rare=action.call is not None,
                 )
 

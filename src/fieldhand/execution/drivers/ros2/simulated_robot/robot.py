@@ -6,6 +6,7 @@ import math
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 
@@ -16,6 +17,7 @@ from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.map_frame import degrees_to_map
 from fieldhand.execution.drivers.ros2.navigation import FOLLOW_PATH
 from fieldhand.execution.drivers.ros2.simulated_robot.action_server import ActionServer, GoalHandler
+from fieldhand.execution.drivers.ros2.simulated_robot.camera_topics import CameraTopics
 from fieldhand.execution.drivers.ros2.simulated_robot.capture_servers import CaptureCall, CaptureServer, capture_server
 from fieldhand.execution.drivers.ros2.simulated_robot.controller_server import ControllerServer
 from fieldhand.execution.drivers.ros2.simulated_robot.field_values import submessage
@@ -161,11 +163,23 @@ class SimulatedRobot:
             measure=self._measure,
             header=lambda: self._stamped("base_link"),
         )
+        self._cameras = CameraTopics(
+            transport,
+            bindings,
+            view=lambda: (self._nearest(), self.platform.position),
+            header=lambda: self._stamped("camera"),
+        )
         for name, bound in bindings.actions.items():
             if bound.call is not None:
                 full_name = bindings.whole_name(bound.call.name)
                 capture_call = CaptureCall(
-                    profile.doable[name], bound.call, interfaces, self.platform, self._places, self._captured(full_name)
+                    profile.doable[name],
+                    bound.call,
+                    interfaces,
+                    self.platform,
+                    self._places,
+                    self._captured(full_name),
+                    images=partial(self._cameras.answers, interfaces, bound.call),
                 )
                 self._servers.append(
                     capture_server(
@@ -217,6 +231,7 @@ class SimulatedRobot:
         settled = self._standing_s is not None and now - self._standing_s >= self._settles_s
         if settled or self._standing_s is None:
             self._sensors.step(now, standing=settled)
+        self._cameras.step(now)
         self._telemetry.step(now)
 
     def close(self) -> None:
