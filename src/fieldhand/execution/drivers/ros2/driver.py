@@ -203,7 +203,9 @@ class Ros2Driver:
         self._telemetry.listen()
         position = self._last_position()
         assert position is not None  # noqa: S101  connected only where it is known
-        return position
+        heading = self._navigation.heading_of(self._telemetry.yaw)
+        heading = self._navigation.heading_deg if heading is None else heading
+        return position if heading is None else dataclasses.replace(position, heading_deg=heading)
 
     def charge_percent(self) -> float:
         self._telemetry.listen()

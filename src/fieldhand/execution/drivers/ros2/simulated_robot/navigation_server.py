@@ -136,14 +136,14 @@ class NavigationServer:
             before.aborted({})
         elif self._platform.driving:
             self._stop_now()  # the path that a navigator left which has died
-        corners = self._corners(goal.goal_message)
+        corners, heading = self._corners(goal.goal_message), self._heading(goal.goal_message)
         here = self._platform.position
         self._goal, self._begun_s, self._feedback_s = goal, self._now(), -math.inf
         if any(math.dist(here.xy, corner) > _REACH_M for corner in corners):
             self._end(Progress(state="failed", what="the goal lies outside of the map"), _OUTSIDE)
             return
         self._through, self._legs, self._leg = corners, tuple(pairwise((here.xy, *corners))), 0
-        self._platform.drive(corners, self._places.nearest(corners[-1]), self._speed(), self._over)
+        self._platform.drive(corners, self._places.nearest(corners[-1]), self._speed(), self._over, heading_deg=heading)
         if self._controller is not None:
             self._controller.follow(self.abort_unexplained)
         if self._unexplained:
@@ -182,18 +182,29 @@ class NavigationServer:
                 raise Ros2Error("this robot drives no loops", advice="send the waypoints once")
             degrees = [_geographic(pose) for pose in _listed(goal["gps_poses"])[_first(goal) :]]
         else:
-            followed = goal.get("path")
-            goal = followed if isinstance(followed, Mapping) else goal
-            goal_message: object = goal.get("poses", (goal.get("pose"),))
-            # From Kilted on, the poses are wrapped in a message with its own header.
-            goal_message = goal_message.get("goals") if isinstance(goal_message, Mapping) else goal_message
-            degrees = [self._in_map(pose) for pose in _listed(goal_message)]
+            degrees = [self._in_map(pose) for pose in self._poses(goal)]
         if not degrees:
             raise Ros2Error("the goal has no poses")
         if len(degrees) > _MOST_POSES:
             raise Ros2Error(f"the goal has more than {_MOST_POSES} poses")
         east_north = self._site.projection.metres([lat for lat, _ in degrees], [lon for _, lon in degrees])
         return tuple((float(x), float(y)) for x, y in east_north)
+
+    def _heading(self, goal: RosMessage) -> float:
+        """Return the heading at the end of a valid goal, in degrees clockwise from north."""
+        if "gps_poses" in goal:
+            # Nav2 interprets it in its map frame, whose axes point east and north (REP 105).
+            return (90.0 - math.degrees(_yaw(_part(_listed(goal["gps_poses"])[-1], "orientation")))) % 360.0
+        last = self._poses(goal)[-1]
+        return (self._datum.heading_deg - math.degrees(_yaw(_part(_part(last, "pose"), "orientation")))) % 360.0
+
+    @staticmethod
+    def _poses(goal: RosMessage) -> Sequence[object]:
+        followed = goal.get("path")
+        goal = followed if isinstance(followed, Mapping) else goal
+        poses: object = goal.get("poses", (goal.get("pose"),))
+        # From Kilted on, the poses are wrapped in a message with its own header.
+        return _listed(poses.get("goals") if isinstance(poses, Mapping) else poses)
 
     def _in_map(self, pose: object) -> tuple[float, float]:
         header, inner = _part(pose, "header"), _part(pose, "pose")
@@ -213,7 +224,10 @@ class NavigationServer:
         self._end(progress, _CODES.get(progress.fault, _OTHERWISE))
 
     def _end(self, progress: Progress, code: int) -> None:
-        goal, self._goal = self._goal, None
+        goal = self._goal
+        if goal is not None and progress.state == "succeeded":
+            goal.feedback(self._feedback(goal, self._now()))
+        self._goal = None
         if goal is None:
             return
         self._report(progress.state, progress)
@@ -309,6 +323,12 @@ def _upright(orientation: RosMessage) -> None:
     length = math.hypot(*_numbers(orientation, "x", "y", "z", "w"))
     if not abs(length - 1.0) <= _OFF:
         raise Ros2Error(f"the orientation is not a unit quaternion: its length is {length:g}")
+
+
+def _yaw(orientation: RosMessage) -> float:
+    """Return the yaw of a quaternion in radians."""
+    x, y, z, w = _numbers(orientation, "x", "y", "z", "w")
+    return math.atan2(2.0 * (w * z + x * y), w * w + x * x - y * y - z * z)
 
 
 def _numbers(message: RosMessage, *names: str) -> tuple[float, ...]:

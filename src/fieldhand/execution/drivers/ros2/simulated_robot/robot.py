@@ -71,6 +71,10 @@ class GoalReport:
     charge_percent: float = 0.0
 
 
+#: Degrees short of a goal's heading at which it stops turning: the default of Nav2's goal checker (0.25 rad).
+YAW_TOLERANCE_DEG = math.degrees(0.25)
+
+
 class _StepClock:
     """A clock that advances only in :meth:`tick`.
 
@@ -140,7 +144,9 @@ class SimulatedRobot:
     ) -> None:
         bindings = bindings_of(profile)
         self._clock, self._report, self._sim_time = _StepClock(clock, wall), report, sim_time
-        driver = SimulatedDriver(site, profile, world, self._clock, np.random.default_rng(seed))
+        driver = SimulatedDriver(
+            site, profile, world, self._clock, np.random.default_rng(seed), yaw_tolerance_deg=YAW_TOLERANCE_DEG
+        )
         self._begun_s = self._clock.now()
         if state is not None:
             driver.restore(state)
