@@ -8,6 +8,7 @@ in from the other end of the row. Headings are in degrees clockwise from true no
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -86,7 +87,7 @@ def facing(drives: Drives, robot: RobotProfile, place: Place, camera: Camera | N
         along_deg: Heading in which it arrives; None if that is unknown.
     """
     stand = place.stand or place.xy
-    if camera is None or not place.planted or _apart_m(stand, place.xy) < _UPON_M:
+    if camera is None or not place.planted or math.dist(stand, place.xy) < _UPON_M:
         return Facing(heading_deg=along_deg)
     bearing = bearing_of(stand, place.xy)
     if robot.turn_deg_s is None:
@@ -138,7 +139,3 @@ def _in_direction(group: object, places: list[Place], camera: Camera) -> list[Pl
     towards = camera.heading_towards(bearing_of(places[0].stand or places[0].xy, places[0].xy))
     forward = apart_deg(bearing_of((x0, y0), (x1, y1)), towards) < 90.0
     return sorted(places, key=lambda p: (p.x - x0) * (x1 - x0) + (p.y - y0) * (y1 - y0), reverse=not forward)
-
-
-def _apart_m(one: XY, two: XY) -> float:
-    return ((one[0] - two[0]) ** 2 + (one[1] - two[1]) ** 2) ** 0.5

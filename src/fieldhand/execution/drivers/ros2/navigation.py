@@ -3,6 +3,8 @@
     corners in degrees ──▶ map frame ──▶ NavigateToPose, one corner after the other     ──▶ arrived? ──▶ the mission
                            (datum or     NavigateThroughPoses, all corners at once
                             fromLL)      FollowGPSWaypoints, as degrees
+                                        FollowPath, the way itself
+                                        ComputeAndTrackRoute, the route that it finds (route_drive.py)
 
 At each corner the robot faces along the leg that led there, and at the end along the aisle, or so that a camera sees
 the plant. Arrival is verified: the robot's own position is compared with the target, and for a camera its heading.
@@ -41,7 +43,7 @@ from fieldhand.robot.bindings import FieldBinding, Ros2Bindings
 from fieldhand.site.bearings import apart_deg
 
 FROM_LL, SPEED_LIMIT = "robot_localization/srv/FromLL", "nav2_msgs/msg/SpeedLimit"
-FOLLOW_PATH = "nav2_msgs/action/FollowPath"
+FOLLOW_PATH, ROUTE = "nav2_msgs/action/FollowPath", "nav2_msgs/action/ComputeAndTrackRoute"
 
 #: Seconds after the end of a goal within which the position must come within tolerance: fixes lag behind.
 SETTLE_S = 3.0
@@ -113,7 +115,7 @@ class NavigationClient:
             self.binding.type,
             steady=steady,
             accept_s=self.binding.accept_s,
-            quiet_s=self.binding.quiet_s,
+            quiet_s=None if self.has_routes else self.binding.quiet_s,  # a route is reported at its nodes only
             new_id=new_id,
         )
         self.working: ActionClient | None = None
@@ -163,6 +165,11 @@ class NavigationClient:
         """Return the clients of all actions that can move the robot: those that drive, and that of the controller."""
         follows = self.follow is not None and self.follow not in self.clients and self.follow.servers() > 0
         return (*self.clients, self.follow) if follows and self.follow is not None else self.clients
+
+    @property
+    def has_routes(self) -> bool:
+        """True if the route server of the robot determines the ways of ordinary drives."""
+        return self.binding.type == ROUTE
 
     @property
     def has_codes(self) -> bool:
@@ -228,8 +235,8 @@ class NavigationClient:
             self.heading_deg = self.heading_of(yaw_in(feedback, _ORIENTATION))
 
     def client_for(self, goal: DriveGoal) -> ActionClient:
-        """Return the client of the action that carries out a drive."""
-        return self.client if goal.work is None or self.working is None else self.working
+        """Return the client of the action that carries out a drive; of a route, that of the controller."""
+        return self.client if self.working is None or (goal.work is None and not self.has_routes) else self.working
 
     def plan(self, goal: DriveGoal) -> Generator[None, None, NavigationGoals]:
         """Compute the goals of Nav2 for a drive, in steps that yield while waiting for the robot.
@@ -269,20 +276,31 @@ class NavigationClient:
         return NavigationGoals(goals=list(zip(each, ends, strict=True)), site_to_map=placed)
 
     def _path(self, goal: DriveGoal, points: Sequence[Point], yaw: float | None) -> RosMessage:
-        """Return a goal that follows a path exactly, with points close to each other as controllers expect.
+        """Return a goal that follows a path exactly; it ends at the given yaw, else along its last leg."""
+        legs = _legs(goal.path_m)
+        return self.follow_goal([points[legs[0][0]], *(points[j] for _, j in legs)], yaw)
 
-        It ends at the given yaw, else along its last leg.
+    def follow_goal(self, points: Sequence[Point], yaw: float | None) -> RosMessage:
+        """Return a goal of the controller: a path in the map, with points close to each other as controllers expect.
+
+        Args:
+            points: Corners of the path, at least two.
+            yaw: Yaw at its end; None for that of the last leg.
         """
         frame = self.binding.frame
         poses: list[RosMessage] = []
-        for i, j in _legs(goal.path_m):
-            steps = max(1, math.ceil(math.dist(points[i], points[j]) / _PATH_STEP_M))
-            poses += [_pose_on(frame, points[i], points[j], k / steps) for k in range(0 if not poses else 1, steps + 1)]
+        for one, two in itertools.pairwise(points):
+            steps = max(1, math.ceil(math.dist(one, two) / _PATH_STEP_M))
+            poses += [_pose_on(frame, one, two, k / steps) for k in range(0 if not poses else 1, steps + 1)]
         if yaw is not None:
-            still = goal.length_m <= _NO_LEG_M
+            still = all(math.dist(one, points[-1]) <= _NO_LEG_M for one in points)
             poses[0 if still else -1 :] = [pose(frame, points[-1], points[-1], yaw)] * (len(poses) if still else 1)
         header: RosMessage = {"frame_id": frame}
-        return {"path": {"header": header, "poses": tuple(poses)}, "controller_id": self.binding.controller}
+        return {
+            "path": {"header": header, "poses": tuple(poses)},
+            "controller_id": self.binding.controller,
+            "goal_checker_id": self.binding.goal_checker,
+        }
 
     def limit_speed(self, speed_m_s: float) -> None:
         """Limit the robot's speed.
@@ -343,18 +361,9 @@ class RunningDrive:
         self._cancelled = True
 
     def _carry_out(self) -> GoalSteps:
-        self._navigation.limit_speed(self._goal.speed_m_s)
-        self._navigation.heading_deg = None
-        planning = self._navigation.plan(self._goal)
-        while True:
-            if self._cancelled:
-                return GoalEnd(state="cancelled")
-            try:
-                next(planning)
-            except StopIteration as planned:
-                plan: NavigationGoals = planned.value
-                break
-            yield
+        plan = yield from self._planned()
+        if plan is None:
+            return GoalEnd(state="cancelled")
         for number, (message, there) in enumerate(plan.goals):
             if number and (why := self._navigation.taken()) is not None:
                 return GoalEnd(state="failed", fault="interrupted", what=why)
@@ -363,6 +372,24 @@ class RunningDrive:
             if ending.state != "succeeded":
                 return ending
         return self._faced()
+
+    def _planned(self) -> Generator[None, None, NavigationGoals | None]:
+        """Return the goals of the drive; None if it was cancelled before they were computed."""
+        self._navigation.limit_speed(self._goal.speed_m_s)
+        self._navigation.heading_deg = None
+        planning = self._navigation.plan(self._goal)
+        while not self._cancelled:
+            try:
+                next(planning)
+            except StopIteration as planned:
+                plan: NavigationGoals = planned.value
+                return plan
+            yield
+        return None
+
+    def _overtaken(self) -> str | None:
+        """Return why the current goal of Nav2 is to be replaced; None if it is not."""
+        return None
 
     def _faced(self) -> GoalEnd:
         """Return the end of a drive that has arrived: a failure if the robot says that its camera looks elsewhere."""
@@ -423,7 +450,7 @@ class RunningDrive:
                 near = after_m + _left_m(headway, nearest_m) <= NEAR_M
                 stuck = why if headway.recoveries or near else ""
                 client.cancel(why)
-            elif (why := self._wrong_place(plan)) is not None:
+            elif (why := self._wrong_place(plan) or self._overtaken()) is not None:
                 client.cancel(why)
             yield
         navigation.note_heading(client.feedback)
