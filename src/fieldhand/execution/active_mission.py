@@ -24,6 +24,7 @@ from fieldhand.execution.open_goals import OpenCapture, OpenDrive, OpenManeuver,
 from fieldhand.execution.recorded_inputs import RecordedInputs
 from fieldhand.execution.time_of_day import TimeOfDay
 from fieldhand.forecast.conditions import ConditionInputs
+from fieldhand.forecast.headings import cameras_of, way_in
 from fieldhand.forecast.mission_state import MissionState, Spent
 from fieldhand.forecast.optional_visits import OptionalVisits
 from fieldhand.forecast.recharge_rules import charge_target, charger_of, farthest_target
@@ -36,6 +37,7 @@ from fieldhand.places.reading_series import ReadingSeries, TakenReading
 from fieldhand.places.resolution import resolve, resolve_one
 from fieldhand.places.selector import Selector
 from fieldhand.robot.model import InDoubtPolicy, RobotProfile
+from fieldhand.site.bearings import first_heading
 from fieldhand.site.blockages import Blockages
 from fieldhand.site.drives import Drive, Drives
 from fieldhand.site.model import Place, Site
@@ -156,6 +158,7 @@ class ActiveMission:
         self.readings: dict[str, Mapping[str, float]] = {}
         self.series: dict[str, ReadingSeries] = {}
         self._collected = collected(task.composition.plan)
+        self._cameras = cameras_of(task.composition.plan, robot)
         self.run = PlanRun(task.composition.plan)
         self.travelled_m = 0.0
         self.driven: tuple[tuple[float, float], ...] = ()
@@ -260,28 +263,30 @@ class ActiveMission:
         """
         return resolve_one(selector, self.site, self._context(self.here))
 
-    def reached(self, place: Place) -> Place:
-        """Return a place with the stand that a drive would lead to now, or the current place if the robot is there.
+    def reached(self, place: Place, node: str = "") -> Place:
+        """Return a place with the stand that a drive of a node would lead to now, or the current place if the robot is
+        there.
 
         Raises:
             DriveFault: There is no way to it.
         """
         if self.standing.serves(place):
             return self.standing
-        return self.way_to(place).end
+        return self.way_to(place, node).end
 
-    def way_to(self, place: Place) -> Drive:
-        """Return the drive to a place, or to its other side if obstacles leave no other.
+    def way_to(self, place: Place, node: str = "") -> Drive:
+        """Return the drive of a node to a place, or to its other side if obstacles leave no other.
 
         Raises:
             DriveFault: There is no way.
         """
+        camera = self._cameras.get(node)
         try:
-            return self.drives.between(self.standing, place)
+            return way_in(self.drives, self.robot, self.standing, place, camera)
         except DriveFault:
             if not self.blockages.stretches or place.stand is None:
                 raise
-            return self.drives.between(self.standing, dataclasses.replace(place, stand=None))
+            return way_in(self.drives, self.robot, self.standing, dataclasses.replace(place, stand=None), camera)
 
     def state(self) -> MissionState:
         """Return the state for the guard's decisions; its ``here`` is the robot's position, from which it would drive
@@ -353,10 +358,19 @@ class ActiveMission:
         Raises:
             DriveFault, PlaceError: There is no way to the place.
         """
-        goal = drive_goal(self.site, self.way_to(place), self._speed_m_s())
+        way, camera = self.way_to(place, node), self._cameras.get(node)
+        goal = drive_goal(self.drives, self.robot, way, self._speed_m_s(), camera)
+        if (along := self._begin_of_work(node)) is not None:
+            goal = dataclasses.replace(goal, heading_deg=along)
         self._emit_driving(node, dataclasses.replace(goal, speed_m_s=self.controller.first_speed_m_s(goal)))
         self._open = OpenDrive(node=node, goal=goal)
         self.controller.start(goal)
+
+    def _begin_of_work(self, node: str) -> float | None:
+        """Return the heading in which the work begins to which a node drives now; None if it drives to a place."""
+        frame = self.run.frame if self.run.frames else None
+        stretch = getattr(frame.tour, "current", None) if frame is not None and frame.node.id == node else None
+        return first_heading(stretch.points) if isinstance(stretch, Stretch) else None
 
     def _speed_m_s(self) -> float:
         """Return the speed limit of a drive that begins now."""
@@ -614,6 +628,7 @@ class ActiveMission:
                 planned_m=goal.length_m,
                 path=goal.path_degrees,
                 speed_m_s=goal.speed_m_s,
+                heading_deg=goal.heading_deg,
             )
         )
 
@@ -680,7 +695,7 @@ class ActiveMission:
 
     def _end_capture(self, open_: OpenCapture, progress: Progress) -> Progress:
         """Record the end of a capture; return its progress, which is failed if a reading is implausible."""
-        action, here = self.robot.action[open_.action], self.here
+        action, here, at = self.robot.action[open_.action], self.here, self.observation.position
         self.action_j += joules_done(action, progress)
         if progress.state in ("cancelled", "cut_off"):
             return progress  # cancelled without effect, or in doubt, which is recorded already
@@ -712,6 +727,9 @@ class ActiveMission:
                 what=progress.what,
                 charge_percent=self.charge_percent(),
                 images=progress.files,
+                robot_lat=at.lat,
+                robot_lon=at.lon,
+                heading_deg=at.heading_deg,
             )
         )
         return progress

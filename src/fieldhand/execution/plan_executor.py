@@ -222,7 +222,7 @@ class PlanExecutor:
         place = mission.resolve_one(selector)
         if not mission.is_at(place) and mission.standing != place:
             yield from wait_for_way(mission, node.id, place)
-        self.place = there = mission.reached(place)
+        self.place = there = mission.reached(place, node.id)
         return there
 
     def _drive(self, request: instructions.DriveTo) -> Generator[None, None, Place]:

@@ -19,16 +19,26 @@ from fieldhand.short_repr import short_repr
 #: Supported ROS 2 releases. The definitions of nav2_msgs differ between them.
 Distro = Literal["humble", "iron", "jazzy", "kilted"]
 
-#: Action type for driving: one pose at a time, all waypoints of the way at once, or waypoints in degrees.
+#: Action type for driving: one pose at a time, all waypoints of the way at once, waypoints in degrees, the way itself,
+#: or that of Nav2's route server.
 NavigationType = Literal[
-    "nav2_msgs/action/NavigateToPose", "nav2_msgs/action/NavigateThroughPoses", "nav2_msgs/action/FollowGPSWaypoints"
+    "nav2_msgs/action/NavigateToPose",
+    "nav2_msgs/action/NavigateThroughPoses",
+    "nav2_msgs/action/FollowGPSWaypoints",
+    "nav2_msgs/action/FollowPath",
+    "nav2_msgs/action/ComputeAndTrackRoute",
 ]
+
+#: Those with which the robot follows the approved way itself.
+EXACT_TYPES = ("nav2_msgs/action/FollowPath", "nav2_msgs/action/ComputeAndTrackRoute")
 
 #: Action type for a path on which an implement works: waypoints to drive through, or the path itself.
 WorkingType = Literal["nav2_msgs/action/NavigateThroughPoses", "nav2_msgs/action/FollowPath"]
 
 #: Nodes of Nav2 without which nothing drives.
 NAVIGATION_NODES = ("bt_navigator", "controller_server", "planner_server")
+#: The same where the way is followed without the navigator, and where the route server determines it.
+FOLLOWING_NODES, ROUTE_NODES = ("controller_server",), ("route_server", "controller_server")
 
 #: Meaning of a navigation failure code for a mission: a fault kind of ``execution/drivers/protocol.py``.
 NavigationFault = Literal["failed", "blocked", "lost"]
@@ -215,7 +225,8 @@ class NavigationBinding:
         extra_s: Seconds added to the maximum duration of a drive.
         working: Action type for the paths of implements; empty to use ``type``.
         working_action: Name of that action.
-        controller: Controller that follows these paths; empty for Nav2's default.
+        controller: Controller that follows paths; empty for Nav2's default.
+        goal_checker: Goal checker that ends them; empty for Nav2's only one.
         nodes: Lifecycle nodes of the navigation, which must be active; one that does not exist is not asked.
         follow_path: Action of Nav2's controller, which may drive on when the navigator is gone; empty for none.
         stuck_s: Seconds without coming nearer to the goal after which a drive counts as blocked.
@@ -239,6 +250,7 @@ class NavigationBinding:
     working: WorkingType | Literal[""] = ""
     working_action: str = ""
     controller: str = ""
+    goal_checker: str = ""
     nodes: tuple[str, ...] = NAVIGATION_NODES
     follow_path: str = "follow_path"
     stuck_s: float = 60.0

@@ -14,7 +14,6 @@ from typing import Annotated, Literal, get_args
 from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, model_validator
 
 from fieldhand.robot.bindings import (
-    NAVIGATION_NODES,
     Distro,
     ImageType,
     NavigationFault,
@@ -290,7 +289,8 @@ class NavigationDocument(Keyed):
     working: Annotated[WorkingType, BeforeValidator(_navigation)] | None = None
     working_action: RosName | None = None
     controller: Annotated[str, Field(max_length=100)] = ""
-    nodes: Annotated[tuple[RosName, ...], Field(max_length=20)] = NAVIGATION_NODES
+    goal_checker: Annotated[str, Field(max_length=100)] = ""
+    nodes: Annotated[tuple[RosName, ...], Field(max_length=20)] | None = None
     follow_path: RosName | Literal[""] = "follow_path"
     stuck_s: TimeLimitField = 60.0
     most_recoveries: Annotated[int, BeforeValidator(no_bool), Field(ge=1, le=1000)] = 6
@@ -300,7 +300,11 @@ class NavigationDocument(Keyed):
         if self.type.endswith("/FollowGPSWaypoints"):
             if self.datum is not None or self.from_ll is not None:
                 raise ValueError("FollowGPSWaypoints takes degrees; leave datum and from_ll out")
-        elif (self.datum is None) == (self.from_ll is None):
+        elif self.type.endswith("/ComputeAndTrackRoute") and self.working not in (None, "nav2_msgs/action/FollowPath"):
+            raise ValueError("with ComputeAndTrackRoute the controller follows every path; leave working out")
+        if self.type.endswith("/FollowGPSWaypoints"):
+            return self
+        if (self.datum is None) == (self.from_ll is None):
             raise ValueError("give either datum (where the map frame lies) or from_ll (the service that knows it)")
         return self
 
@@ -359,6 +363,10 @@ class EventBindingDocument(_TopicDocument, _ConvertedDocument):
         return self
 
 
+#: Releases whose Nav2 has a route server.
+_WITH_ROUTES = ("jazzy", "kilted")
+
+
 class Ros2Document(Keyed):
     """The ``ros2`` part of a profile."""
 
@@ -379,6 +387,8 @@ class Ros2Document(Keyed):
 
     @model_validator(mode="after")
     def _known_there(self) -> Ros2Document:
+        if self.navigation.type.endswith("/ComputeAndTrackRoute") and self.distro not in _WITH_ROUTES:
+            raise ValueError(f"Nav2 of {self.distro} has no route server; use FollowPath, or one of jazzy, kilted")
         if self.distro == "humble" and self.navigation.type.endswith("/FollowGPSWaypoints"):
             newer = ", ".join(name for name in get_args(Distro) if name != "humble")
             raise ValueError(f"Nav2 of humble has no FollowGPSWaypoints; use another type, or one of {newer}")

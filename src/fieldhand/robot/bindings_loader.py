@@ -9,10 +9,13 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from fieldhand.robot.bindings import (
+    FOLLOWING_NODES,
+    NAVIGATION_NODES,
     PLACE_REFERENCES,
+    ROUTE_NODES,
     ActionBinding,
     BatteryBinding,
     CallBinding,
@@ -28,6 +31,7 @@ from fieldhand.robot.bindings import (
     StopBinding,
     SwitchBinding,
     TopicBinding,
+    WorkingType,
 )
 from fieldhand.robot.bindings_document import (
     ActionBindingDocument,
@@ -258,8 +262,12 @@ def _topic(
 
 def _navigation(document: NavigationDocument) -> NavigationBinding:
     datum = document.datum
-    values = document.model_dump(exclude={"datum", "action", "from_ll", "speed_limit", "working", "working_action"})
-    working = document.working or ""
+    values = document.model_dump(
+        exclude={"datum", "action", "from_ll", "speed_limit", "working", "working_action", "nodes"}
+    )
+    working: WorkingType | Literal[""] = document.working or ""
+    if not working and document.type.endswith("/ComputeAndTrackRoute"):
+        working = "nav2_msgs/action/FollowPath"
     return NavigationBinding(
         **values,
         action=document.action or _USUAL_NAMES[document.type],
@@ -267,6 +275,7 @@ def _navigation(document: NavigationDocument) -> NavigationBinding:
         from_ll=document.from_ll or "",
         speed_limit=document.speed_limit or "",
         working=working,
+        nodes=_USUAL_NODES.get(document.type, NAVIGATION_NODES) if document.nodes is None else document.nodes,
         working_action=document.working_action or (_USUAL_NAMES[working] if working else ""),
     )
 
@@ -277,6 +286,12 @@ _USUAL_NAMES = {
     "nav2_msgs/action/NavigateThroughPoses": "navigate_through_poses",
     "nav2_msgs/action/FollowGPSWaypoints": "follow_gps_waypoints",
     "nav2_msgs/action/FollowPath": "follow_path",
+    "nav2_msgs/action/ComputeAndTrackRoute": "compute_and_track_route",
+}
+#: Nodes without which nothing drives, where they are not those of the navigator.
+_USUAL_NODES = {
+    "nav2_msgs/action/FollowPath": FOLLOWING_NODES,
+    "nav2_msgs/action/ComputeAndTrackRoute": ROUTE_NODES,
 }
 
 

@@ -59,6 +59,7 @@ class Driving:
     """A drive begins. ``path`` lists its corners as (lat, lon), ``speed_m_s`` is the commanded speed.
 
     ``side``, here and in the events below, is the side of the tree on which the robot is to stand, if the plan says so.
+    ``heading_deg`` is the heading at its end, in degrees clockwise from north.
     """
 
     event: ClassVar[str] = "drive"
@@ -70,6 +71,7 @@ class Driving:
     path: tuple[tuple[float, float], ...]
     speed_m_s: float | None = None
     side: str = ""
+    heading_deg: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -117,7 +119,8 @@ class Acted:
     """An action was done or failed. ``lat``/``lon`` are those of the tree or point where it was done.
 
     ``readings`` maps each measured quantity to its value, in the unit of the profile. ``count`` is 1: every capture is
-    an event of its own.
+    an event of its own. ``robot_lat``, ``robot_lon`` and ``heading_deg`` (clockwise from north) are those of the robot;
+    None if unknown.
     """
 
     event: ClassVar[str] = "action"
@@ -137,6 +140,9 @@ class Acted:
     charge_percent: float = 100.0
     side: str = ""
     images: tuple[ImageFile, ...] = ()
+    robot_lat: float | None = None
+    robot_lon: float | None = None
+    heading_deg: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -20,6 +20,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal, Protocol, runtime_checkable
 
+from fieldhand.robot.camera import Camera
 from fieldhand.site.model import Place
 from fieldhand.task.results import ImageFile
 
@@ -54,12 +55,14 @@ class Position:
     Attributes:
         x, y: Metres east and north in the site's projection.
         lat, lon: Degrees, WGS 84.
+        heading_deg: Heading in degrees clockwise from true north, 0 to 360; None if it is not known.
     """
 
     x: float
     y: float
     lat: float
     lon: float
+    heading_deg: float | None = None
 
     @property
     def xy(self) -> tuple[float, float]:
@@ -103,6 +106,9 @@ class DriveGoal:
         length_m: Length of the path in metres.
         speed_m_s: Speed limit in m/s.
         work: Work along the path; None for a drive whose path the robot may leave.
+        heading_deg: Heading at the end in degrees clockwise from true north; None for that of the last leg.
+        faces: Camera for whose picture the robot has this heading; None if it only stands along the aisle, so that
+            another heading is no failure.
     """
 
     place: Place
@@ -111,6 +117,8 @@ class DriveGoal:
     length_m: float
     speed_m_s: float
     work: StretchWork | None = None
+    heading_deg: float | None = None
+    faces: Camera | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -101,7 +101,7 @@ class Observation:
         p, g, o = self.position, self.progress, self.order
         body: dict[str, Any] = {
             "t": self.t,
-            "at": [p.x, p.y, p.lat, p.lon],
+            "at": [p.x, p.y, p.lat, p.lon, *(() if p.heading_deg is None else (p.heading_deg,))],
             "charge": self.charge_percent,
             "goal": [g.state, g.metres, g.seconds, dict(g.readings), g.what, g.fault],
             "stopped": self.stopped,
@@ -130,12 +130,12 @@ def observation_of(record: Record) -> Observation:
     """
     try:
         body = json.loads(record.body)
-        x, y, lat, lon = body["at"]
+        x, y, lat, lon, *heading = body["at"]
         state, metres, seconds, readings, what, fault = body["goal"]
         order, unobserved = body["order"], body.get("unobserved")
         return Observation(
             t=float(body["t"]),
-            position=Position(x=x, y=y, lat=lat, lon=lon),
+            position=Position(x=x, y=y, lat=lat, lon=lon, heading_deg=heading[0] if heading else None),
             charge_percent=float(body["charge"]),
             progress=Progress(
                 state=state,

@@ -14,6 +14,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from fieldhand.execution.drivers.protocol import Position
+from fieldhand.execution.drivers.ros2.map_frame import yaw_in
 from fieldhand.execution.drivers.ros2.message_fields import number_at, seconds_at, value_at
 from fieldhand.execution.drivers.ros2.transport import QosProfile, RosMessage, Subscription, Transport
 from fieldhand.execution.robot_text import robot_text
@@ -198,6 +199,9 @@ class Telemetry:
         slack_m = max(_JUMP_M, _NOISE * bindings.position.most_sigma_m)
         self._jumps = _JumpDetector(slack_m, speed_m_s, clock, steady)
         self._odometer = _Odometer(_ODOMETRY_STEP_M if self._odometry else _FIX_STEP_M, speed_m_s, clock)
+        self._frame = bindings.navigation.frame
+        #: Yaw of the robot in the map in radians; None if its odometry is not in that frame.
+        self.yaw: float | None = None
         self._position: Position | None = None
         self._stamp_s: float | None = None
         self._charge: float | None = None
@@ -310,6 +314,8 @@ class Telemetry:
         if x is not None and y is not None:
             self._odometry.at_s = now
             self._odometer.add((x, y), message)
+            if value_at(message, "header.frame_id") == self._frame:
+                self.yaw = yaw_in(message, "pose.pose.orientation")
 
     def _receive_counter(self, message: RosMessage, now: float) -> None:
         assert self._counter is not None  # noqa: S101  asked for by who has one
