@@ -28,6 +28,7 @@ from fieldhand.planning.grammar.commands import (
     limits,
     pace,
     parameters,
+    precision,
     reported,
     requests,
     row_parts,
@@ -51,7 +52,7 @@ _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
     exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, aisles, earlier,
     work_wanted, laps, headings, edge_sides, row_parts, asked, left_standing, to_and_fro, work_sequel, at_edges,
-    bringing, reported, further_work, counting, which_of_two, asked_places,
+    bringing, reported, further_work, counting, which_of_two, asked_places, precision,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

@@ -22,8 +22,9 @@ from fieldhand.planning.grammar.meaning import (
     WorkCommand,
 )
 from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.places.planted_rows import filled_rows
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import is_drawn, is_gate, named_places, swapped
+from fieldhand.planning.selections import are_rows, is_drawn, is_gate, named_places, over, swapped
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
@@ -308,6 +309,57 @@ def _kept(command: Command, places: s.Selector, site: Site, *, leaves_out: bool)
         return command  # "trees 4 and 9": a check tells which of them cannot be reached
     rest = left_out_of(command, Excluded(PlaceMeaning(places, "area")), site)
     return command if rest is None else rest
+
+
+# Rows of ground into which the robot drives, by a gate.
+
+
+@construction(
+    "into: INTO where=region", "into: AT where=region", "into: INTO where=region [COMMA] ENTERBY gates", cost=0.1
+)
+def into_ground(where: s.Selector) -> s.Selector | None:
+    """Compose "get into the cool section" before what is done there."""
+    return None if are_rows(where) else where
+
+
+@construction(
+    "rows_there: EACH [OF] [DET] noun=ROW [THERE]", "rows_there: EACH [OF] [DET] n=count noun=ROW [THERE]",
+    "rows_there: EACH [OF] ITS noun=ROW", "rows_there: EACH [OF] ITS n=count noun=ROW", "rows_there: ITS noun=ROW",
+    "rows_there: ITS n=count noun=ROW", "rows_there: DET n=count noun=ROW THERE", "rows_there: DET noun=ROW THERE",
+    cost=0.0,
+)  # fmt: skip
+def rows_there(noun: Lex, n: int = 0) -> int:
+    """Compose "all four rows there": their number, 0 if it is not said."""
+    return n if noun.plural or not n else -1
+
+
+@construction(
+    "work: where=into [COMMA] AND verb=WORKV n=rows_there", "work: where=into COMMA verb=WORKV n=rows_there", cost=0.2,
+    given=("site", "robot"),
+)  # fmt: skip
+def worked_there(
+    where: s.Selector, verb: Lex, n: int, used: int, site: Site, robot: RobotProfile
+) -> WorkCommand | None:
+    """Compose "get into the cool section and film all four rows there"."""
+    rows, implement = filled_rows(where, site), robot.action[verb.value].implement
+    if not rows or n not in (0, len(rows)) or implement is None or implement.covers:
+        return None
+    return WorkCommand(action=verb.value, along=over(s.Rows(), where), mode="rows", used=used)
+
+
+@construction(
+    "entered_by: VIAGATE gates=gates INORDERTO", "entered_by: VIAGATE gates=gates INORDERTO INTO AND", cost=0.1
+)
+@construction("entered_by: VIAGATE gates=gates", cost=0.3)
+def entered_by(gates: tuple[str, ...], used: int) -> WayRule:
+    """Compose "use the north door to", before work on the ground behind it."""
+    return WayRule(gates=gates, used=used)
+
+
+@construction("said: rule=entered_by one=work", cost=0.1)
+def worked_behind_gate(rule: WayRule, one: WorkCommand) -> Said | None:
+    """Compose "use the north door to get into the cool section and film all four rows there"."""
+    return Said((LinkedCommand(None, rule), LinkedCommand(None, one))) if one.along is not None and one.action else None
 
 
 @construction("leaving: word=ENTERBY gate=place", cost=0.1)

@@ -9,7 +9,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Likewise, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import chooses_from_trees, is_by_attribute
+from fieldhand.planning.selections import as_where, chooses_from_trees, is_by_attribute, swapped
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -60,6 +60,14 @@ def those_of_another_value(value: Lex, noun: Lex, each: Lex | None = None) -> li
     return [
         PlaceMeaning(s.Where(attribute=name, test="eq", value=text), "several", like=like) for name, text in value.value
     ]
+
+
+def of_other_value(before: s.Selector, described: s.Selector) -> s.Selector | None:
+    """Return trees with another value of the attribute by which those before are described; None if they are not."""
+    new = as_where(described)
+    parts = [part for part in map(as_where, before.walk()) if part is not None and part.test == "eq"]
+    old = [one for one in parts if new is not None and one.attribute == new.attribute and one.value != new.value]
+    return swapped(before, old[0], replace(new, of=old[0].of)) if new is not None and len(old) == 1 else None
 
 
 @construction("place: DET OTHER inner=nominal", cost=0.6)
