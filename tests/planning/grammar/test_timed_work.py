@@ -320,3 +320,54 @@ def test_ground_that_is_not_driven_onto_is_kept_out_of(
     outcome = EnglishPlanner().plan(request_, site, robot)
     assert isinstance(outcome, Planned), outcome
     assert outline(outcome.task).replace(" | return_to_start", "") == plan
+
+
+AWAITED = [
+    (PASTURE, HUSKY, "Wait at the farm gate until 6 pm, then read CO2 on the bank.",
+     "go GateIs(farm gate); co2 @ PointsIn(bank) | not_before=18:00"),
+    (PASTURE, HUSKY, "Go to the farm gate, wait there until noon, then read CO2 on the bank.",
+     "go GateIs(farm gate); co2 @ PointsIn(bank) | not_before=12:00"),
+    (GARDEN, HUSKY, "Drive to the manure heap and wait there until sunset. Then photograph every potato.",
+     "go PointsIn(manure heap); for Where(crop, eq, potato): [picture] | not_before=sunset"),
+    (ORCHARD, HUSKY, "Wait at the charger until 6:30 am and then photograph row 4.",
+     "go Marker(charger); for Rows(4, 4): [picture] | not_before=06:30"),
+    (ORCHARD, HUSKY, "Tomorrow, wait by tree 4 until 9 am, then photograph row 4.",
+     "go TreeIs(4); for Rows(4, 4): [picture] | day=tomorrow not_before=09:00"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("site", "robot", "request_", "plan"), AWAITED, ids=name)
+def test_a_time_that_is_awaited_first_begins_the_mission(
+    site: Site, robot: RobotProfile, request_: str, plan: str
+) -> None:
+    require_plan(site, robot, request_, plan)
+    found = EnglishPlanner().plan(request_, site, robot)
+    assert isinstance(found, Planned)
+    assert any("the mission begins at" in line for line in found.task.command.warnings)
+
+
+@pytest.mark.parametrize(
+    "request_",
+    [
+        "Wait at the charger until 6 pm.",
+        "Drive to tree 4 and wait until noon.",
+        "Photograph row 4, wait until 6 pm, then photograph it again.",
+        "Read CO2 at tree 4, then wait at the charger until 6 pm, then read CO2 at tree 4 again.",
+        "Stay at tree 4 until 6 pm and read CO2 every 10 minutes.",
+    ],
+)
+def test_a_time_that_is_awaited_later_is_refused(request_: str) -> None:
+    require_refusal(ORCHARD, HUSKY, request_, "cannot wait for a time of the clock")
+
+
+@pytest.mark.parametrize(
+    ("request_", "plan"),
+    [
+        ("Drive to the manure heap. Then photograph every potato.", "for Where(crop, eq, potato): [picture]"),
+        ("Go to the rose bed, then photograph V11 and V12.", "for UnionOf(TreeIs(V11)+TreeIs(V12)): [picture]"),
+        ("Go to the manure heap and photograph row 3, every plant.", "for Rows(3, 3): [picture]"),
+    ],
+)
+def test_plants_behind_a_drive_to_bare_ground_are_elsewhere(request_: str, plan: str) -> None:
+    heap = "rose bed" if "rose" in request_ else "manure heap"
+    require_plan(GARDEN, HUSKY, request_, f"go PointsIn({heap}); {plan}")

@@ -91,7 +91,7 @@ class EnglishPlanner:
     ) -> Outcome | None:
         """Plan a request that says when the mission runs; None if it says no such time."""
         from fieldhand.planning.grammar.reader import composed
-        from fieldhand.planning.grammar.times import asked_time, assumed_times, with_answer, without_times
+        from fieldhand.planning.grammar.times import asked_time, assumed_times, warned_times, with_answer, without_times
 
         times = without_times(words, _earlier(words, site, robot))
         if times is None:
@@ -121,12 +121,13 @@ class EnglishPlanner:
         if asked is not None:
             choices = tuple(said for said, _ in asked.choices)
             return Clarify(question=asked.question, choices=choices, planner=NAME, free=True)
-        assumed = assumed_times(part)
-        if answered is None and not assumed:
+        assumed, warned = assumed_times(part), warned_times(part)
+        if answered is None and not assumed and not warned:
             return outcome
         command = outcome.task.command
         said = assumed if answered is None else (answered[1].sentence(), *assumed)
-        stated = replace(command, assumptions=(*said, *command.assumptions))
+        warnings = (*command.warnings, *warned)
+        stated = replace(command, assumptions=(*said, *command.assumptions), warnings=warnings)
         return replace(outcome, task=replace(outcome.task, command=stated))
 
 

@@ -35,6 +35,7 @@ class TimePart:
         disputed: True if a time is said that lies in another part of the day than the one that is said.
         needs_day: True if it is no time without a day ("first thing").
         times_a_day: Number of times of the day that must be said ("twice a day"); 0 if not said.
+        awaits: True if the request says that the robot waits for the time somewhere ("wait at the gate until 6 pm").
         further: True for another time of the same day, behind what is done at the first ("and again at 2 pm").
     """
 
@@ -59,6 +60,7 @@ class TimePart:
     times_a_day: int = 0
     needs_day: bool = False
     further: bool = False
+    awaits: bool = False
 
     def __and__(self, other: TimePart) -> TimePart | None:
         """Return both parts together; None if they contradict each other."""
