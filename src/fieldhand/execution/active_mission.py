@@ -208,7 +208,14 @@ class ActiveMission:
             charged += max(0.0, charge - self._docked_at)
             docked_s += self.clock.now() - self._docked_since
         percent = self._full - charge + charged
-        return Spent(metres=metres, seconds=self.t, percent=percent, joules=joules, docked_s=docked_s)
+        return Spent(
+            metres=metres,
+            seconds=self.t,
+            percent=percent,
+            joules=joules,
+            docked_s=docked_s,
+            absent_s=self.inputs.absent_s,
+        )
 
     @property
     def drives(self) -> Drives:

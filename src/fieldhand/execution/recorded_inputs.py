@@ -91,6 +91,7 @@ class RecordedInputs:
     Attributes:
         cuts: Number of power cuts so far.
         unobserved: What the robot drove on during the last one; None for nothing.
+        absent_s: Seconds for which nobody looked at the robot during all of them, as far as they are known.
     """
 
     def __init__(
@@ -113,6 +114,7 @@ class RecordedInputs:
         self._goals = 0
         self._course = Course()
         self.unobserved: UnobservedDrive | None = None
+        self.absent_s, self._is_back = 0.0, False
         self._watched = tuple(watched)
         self._driver, self._guard, self._failsafe = driver, guard, failsafe
         self._clock, self._wall, self._log = clock, wall, log
@@ -338,7 +340,7 @@ class RecordedInputs:
     def _cut(self) -> None:
         """Count a power cut; it interrupted the current goal."""
         self.cuts += 1
-        self.unobserved = None
+        self.unobserved, self._is_back = None, self._live and not self._simulated
         self._goal_cut_off = self._goal is not None
         if self._live or self._simulated:
             self._driver.cancel()
@@ -388,7 +390,9 @@ class RecordedInputs:
             taken=robot_text_or_none(shared.taken()) if shared is not None else None,
             odometer_m=self._driver.odometer_m() if isinstance(self._driver, Odometer) else None,
             unobserved=unobserved,
+            absent_s=self._stood_s() if self._is_back else 0.0,
         )
+        self._is_back = False
         self._keep(observation)
         goal, changed = self._goal, observation.order != self._last_command
         self._last_command = observation.order
@@ -412,6 +416,7 @@ class RecordedInputs:
         self._last = observation
         self._course.add(observation.position)
         self._files = observation.progress.files
+        self.absent_s += observation.absent_s
         if observation.progress.state == "running":
             self._goal_progress = observation.progress
         if observation.unobserved is not None:
@@ -494,6 +499,12 @@ class RecordedInputs:
         self.unobserved = driven if driven.is_seen else None
         metres, seconds = before.metres + driven.metres, before.seconds + driven.seconds
         return dataclasses.replace(cut_off, metres=metres, seconds=seconds), self.unobserved
+
+    def _stood_s(self) -> float:
+        """Return the seconds for which the robot stood while nobody looked; 0 if they are unknown."""
+        absent_s = self._absent_s()
+        driven_s = 0.0 if self.unobserved is None else self.unobserved.seconds
+        return max(0.0, absent_s - driven_s) if math.isfinite(absent_s) else 0.0
 
     def _absent_s(self) -> float:
         """Return the seconds for which nobody looked at the robot; infinity if that is unknown."""

@@ -79,6 +79,7 @@ class Observation:
         away, taken: As :class:`~fieldhand.execution.drivers.protocol.SharedNavigation`.
         odometer_m: Reading of the robot's odometer; None if it has none.
         unobserved: What the robot drove on during a power cut, which ``progress`` includes; None for nothing.
+        absent_s: Seconds for which nobody looked at the robot before, because of a power cut.
     """
 
     t: float
@@ -95,6 +96,7 @@ class Observation:
     taken: str | None = None
     odometer_m: float | None = None
     unobserved: UnobservedDrive | None = None
+    absent_s: float = 0.0
 
     def record(self) -> Record:
         """Return the record of the observation."""
@@ -117,6 +119,8 @@ class Observation:
             body["images"] = [dataclasses.asdict(file) for file in g.files]
         if self.odometer_m is not None:
             body["odometer"] = self.odometer_m
+        if self.absent_s:
+            body["absent"] = self.absent_s
         if self.unobserved is not None:
             body["unobserved"] = [self.unobserved.metres, self.unobserved.seconds, self.unobserved.by]
         return Record(kind="sight", body=json.dumps(body))
@@ -155,6 +159,7 @@ def observation_of(record: Record) -> Observation:
             away=body.get("away"),
             taken=body.get("taken"),
             odometer_m=body.get("odometer"),
+            absent_s=body.get("absent", 0.0),
             unobserved=None if unobserved is None else unobserved_of(*unobserved),
         )
     except (ValueError, KeyError, TypeError) as error:
