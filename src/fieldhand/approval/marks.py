@@ -43,7 +43,7 @@ WORKED, _WORKED_PT = "#e08a1e", 4.0
 
 
 #: Colour and size in points of the mark for the robot's heading at a picture.
-HEADING, HEADING_PT = "#111111", 7.0
+HEADING, HEADING_PT = "#ffd23f", 8.0
 
 
 def draw_leg(ax: Axes, leg: Leg) -> None:
@@ -112,8 +112,8 @@ def draw_stop(ax: Axes, stop: MapStop, colours: dict[str, str], disc: float) -> 
             marker=_arrow_head(stop.heading_deg),
             markersize=HEADING_PT,
             color=HEADING,
-            markeredgecolor="white",
-            markeredgewidth=0.5,
+            markeredgecolor=PATH,
+            markeredgewidth=0.8,
             zorder=12,
             gid="heading",
         )

@@ -194,7 +194,18 @@ def _legend(plan: DrawnPlan, colours: dict[str, str], language: Language) -> lis
         found.append(disc("white", INK, message("Hollow: only if a condition holds")))
     if any(stop.heading_deg is not None for stop in plan.stops):
         label = language.say(message("Heading of the robot at a picture"))
-        found.append(Line2D([], [], marker="^", linestyle="none", markersize=HEADING_PT, color=HEADING, label=label))
+        found.append(
+            Line2D(
+                [],
+                [],
+                marker="^",
+                linestyle="none",
+                markersize=HEADING_PT,
+                color=HEADING,
+                markeredgecolor=PATH,
+                label=label,
+            )
+        )
     for certainty in LINES:
         if any(leg.certainty == certainty for leg in plan.legs):
             style, width, alpha = LINES[certainty]

@@ -117,7 +117,12 @@ def order_visits(drives: Drives, here: Place, places: Sequence[Place], home: Pla
 
 
 def visits_in_order(
-    node: ForEach, drives: Drives, here: Place, places: Sequence[Place], home: Place | None, robot: RobotProfile
+    node: ForEach,
+    drives: Drives,
+    here: Place,
+    places: Sequence[Place],
+    home: Place | None,
+    robot: RobotProfile | None = None,
 ) -> tuple[Place, ...]:
     """Return the places that a for-each drives to, in order, each with its stand.
 
@@ -134,7 +139,7 @@ def visits_in_order(
     if node.order == "given":
         return tuple(kept)
     ordered = tuple(kept[i] for i in order_visits(drives, here, kept, home))
-    camera = None if robot.turn_deg_s is not None else cameras_of(node, robot).get(node.id)
+    camera = None if robot is None or robot.turn_deg_s is not None else cameras_of(node, robot).get(node.id)
     return in_rows(drives, ordered, camera) if camera is not None and camera.lateral else ordered
 
 
