@@ -8,7 +8,7 @@ from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.loader import open_site
 from fieldhand.site.model import Site
-from planning.grammar.field_requests import name, require_plan, require_refusal
+from planning.grammar.field_requests import name, require_plan, require_question, require_refusal
 from support.sites.gardens import pasture
 
 DEMO, PASTURE = open_site("demo"), pasture()
@@ -48,6 +48,32 @@ PLANNED += [
         HUSKY,
         "read CO2 every 10 m in a straight line from tree 4 to tree 60",
         "for StraightLine(TreeIs(4), TreeIs(60), 10): [co2]",
+    ),
+]
+OFF = "for Transect(10, edge, pond, 4): [picture]"
+EDGES = [
+    (PASTURE, HUSKY, "Go once round the pond, keeping 4 m away from it, with a thermal picture every 10 metres.", OFF),
+    (PASTURE, HUSKY, "Circle the pond, 4 metres from the edge, with a thermal picture every 10 metres.", OFF),
+    (PASTURE, HUSKY, "Drive around the pond 4 m from its edge and take a thermal picture every 10 m.", OFF),
+    (
+        PASTURE,
+        HUSKY,
+        "take a thermal picture every 10 m along the edge of the bank, 2 m from the edge",
+        "for Transect(10, edge, bank, 2): [picture]",
+    ),
+    (PASTURE, TRACTOR, "mow a 2.4 m wide strip around the cow paddock", "mow perimeter InZone(cow paddock), 2 laps"),
+    (PASTURE, TRACTOR, "mow a strip of 1.2 m along the edge of the bank", "mow perimeter InZone(bank)"),
+    (
+        DEMO,
+        HUSKY,
+        "read CO2 at tree 4, then every 5 m along row 3",
+        "co2 @ TreeIs(4); for Spaced(5, of Rows(3, 3)): [co2]",
+    ),
+    (
+        DEMO,
+        HUSKY,
+        "CO2 at tree 4 and every 10 m along rows 3 and 5",
+        "co2 @ TreeIs(4); for UnionOf(Spaced(10, of Rows(3, 3))+Spaced(10, of Rows(5, 5))): [co2]",
     ),
 ]
 CORNERS = [
@@ -127,3 +153,21 @@ def test_corners_of_ground_without_plants_are_points_of_it(
     site: Site, robot: RobotProfile, request_: str, plan: str
 ) -> None:
     require_plan(site, robot, request_, plan)
+
+
+@pytest.mark.parametrize(("site", "robot", "request_", "plan"), EDGES, ids=name)
+def test_distances_from_edges_and_widths_of_strips_are_planned(
+    site: Site, robot: RobotProfile, request_: str, plan: str
+) -> None:
+    require_plan(site, robot, request_, plan)
+
+
+def test_a_strip_between_two_numbers_of_laps_is_asked_about() -> None:
+    for width in ("three metres wide", "2 m wide"):
+        require_question(PASTURE, TRACTOR, f"Mow a strip {width} all round the cow paddock.", 2)
+
+
+def test_a_robot_that_only_waits_for_a_time_somewhere_is_refused() -> None:
+    require_refusal(
+        PASTURE, HUSKY, "Drive to the middle gate, wait there until 14:30 and come back.", "cannot wait for a time"
+    )

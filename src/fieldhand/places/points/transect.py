@@ -27,12 +27,16 @@ if TYPE_CHECKING:
 PathShape = Literal["zigzag", "z", "x", "edge"]
 
 
+#: Distance in metres of points along an edge from it, unless another is asked for.
+OFF_EDGE_M = 1.5
+
+
 @dataclass(frozen=True, kw_only=True)
 class Transect(FromGroup):
     """``count`` trees of ``of`` nearest to equally spaced points, or to points ``apart_m`` metres apart, of a path
     across it: a ``zigzag`` of ``legs`` (4 are a W, 1 is a diagonal), a ``z`` or an ``x``. With ``zone`` (``part``),
-    free points there; without trees, on the whole site. Along an ``edge``, free points inside of it,
-    outside of a keep-out."""
+    free points there; without trees, on the whole site. Along an ``edge``, free points ``off_m`` inside of
+    it, outside of a keep-out."""
 
     count: int = 0
     apart_m: float = 0.0
@@ -40,6 +44,7 @@ class Transect(FromGroup):
     legs: int = 4
     zone: str = ""
     part: AreaPart = "all"
+    off_m: float = OFF_EDGE_M
     of: Selector = Trees()
 
     reference_rule = "of"
@@ -89,6 +94,8 @@ class Transect(FromGroup):
 
     def _along_edge(self) -> NounPhrase:
         area = say_zone(self.zone) if self.zone else message("the whole site")
+        if self.off_m != OFF_EDGE_M:
+            area = message("{area}, {metres} m from it", area=area, metres=say_number(self.off_m))
         if self.apart_m:
             return many(
                 message(

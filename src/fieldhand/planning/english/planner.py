@@ -116,6 +116,9 @@ class EnglishPlanner:
             return outcome
         if times.beside_any(outcome.task.command.no_part):  # "the crew arrives at 7 am" is told of the crew
             return None
+        steps = tuple(walk(outcome.task.composition.plan))
+        if part.awaits and not any(step.act is not None or step.work is not None for step in steps):
+            return None  # "wait there until 6 pm and come back"
         if _waits_longer_than_interval(outcome):
             return None  # "wait an hour there and read CO2 every ten minutes" is one mission
         if asked is not None:

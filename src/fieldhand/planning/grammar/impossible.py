@@ -402,20 +402,6 @@ def too_long(time: Amount) -> Impossible | None:
     return Impossible(message("a wait lasts at most 24 hours"), message("say a shorter time, or plan two missions"))
 
 
-@construction(
-    "[DET] STRIP amount=amount DIMENSION", "[DET] amount=amount [DASH] [DIMENSION] STRIP",
-    "[DET] amount=amount [DASH] DIMENSION STRIP",
-    given=("robot",),
-)  # fmt: skip
-def strip_of_a_width(amount: Amount, robot: RobotProfile) -> Impossible | None:
-    """Compose "a strip three metres wide", which is as wide as the implement."""
-    widths = [width for one in robot.actions if one.implement is not None and (width := one.implement.width_m)]
-    if amount.unit != "metres" or not widths:
-        return None
-    what = message("a strip along an edge is as wide as the implement, {width} m", width=Number(f"{max(widths):g}"))
-    return Impossible(what, message("leave out the width and say how many laps: 'mow one lap around the paddock'"))
-
-
 @construction("way=CLOCKWISE")
 def direction_around(way: Lex) -> Impossible:
     """Compose "clockwise" behind a drive around an area; the corners can be visited so."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field, replace
 
 from shapely import unary_union
@@ -18,6 +19,7 @@ from fieldhand.planning.grammar.places.numbers import amount
 from fieldhand.planning.grammar.places.sampling import SamplingPath, bare_zone, is_keep_out
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import are_rows, as_zone
+from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -29,6 +31,9 @@ _THIN, _NEARLY = 0.1, 0.8
 _HALF_A_FENCE_M = 0.4
 #: Maximum number of laps, and of captures with a rest between them.
 _MOST_LAPS, _MOST_RESTED = 100, 50
+
+#: Difference of a width from that of so many laps, in laps, that is none.
+_SAME_WIDTH = 0.05
 
 
 # --- laps -------------------------------------------------------------------------------------------------------------
@@ -145,6 +150,30 @@ def worked_in_laps(verb: Lex, used: int, times: int = 1, where: s.Selector | Tra
     along = where.selector if isinstance(where, Tract) else where
     made = None if along is None else _driven(along, times, used)
     return None if made is None else replace(made, action=verb.value)
+
+
+@construction(
+    "strip: [DET] STRIP far=amount DIMENSION",
+    "strip: [DET] STRIP OF far=amount",
+    "strip: [DET] far=amount [DASH] [DIMENSION] STRIP",
+    cost=0.1,
+)
+def strip(far: Amount) -> float | None:
+    """Compose "a strip 3 m wide"."""
+    return far.number if far.unit == "metres" and far.number > 0.0 else None
+
+
+@construction("work: verb=WORKV wide=strip where=lapped", cost=0.1, given=("robot",))
+def worked_strip(verb: Lex, wide: float, where: s.Selector, used: int, robot: RobotProfile) -> list[WorkCommand] | None:
+    """Compose "mow a strip 3 m wide around the paddock", in as many laps side by side; between two numbers, either."""
+    implement = robot.action[verb.value].implement
+    width_m = None if implement is None or not implement.covers else implement.width_m
+    if width_m is None:
+        return None
+    laps = wide / width_m
+    numbers = {max(1, math.floor(laps + _SAME_WIDTH)), max(1, math.ceil(laps - _SAME_WIDTH))}
+    made = [_driven(where, times, used) for times in sorted(numbers)]
+    return [replace(one, action=verb.value) for one in made if one is not None]
 
 
 @construction("circled: CIRCLEV where=region", "circled: CIRCLEV IT", "circled: GO AROUND IT", cost=0.1)

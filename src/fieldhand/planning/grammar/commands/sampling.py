@@ -7,7 +7,15 @@ from dataclasses import dataclass, field, replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Adjunct, once
-from fieldhand.planning.grammar.meaning import CaptureCommand, LinkedCommand, PaceClause, PlaceMeaning, Said, Thing
+from fieldhand.planning.grammar.meaning import (
+    LAST_THING,
+    CaptureCommand,
+    LinkedCommand,
+    PaceClause,
+    PlaceMeaning,
+    Said,
+    Thing,
+)
 from fieldhand.planning.grammar.places.lines import SamplingLine
 from fieldhand.planning.grammar.places.points import Points, points_on
 from fieldhand.planning.grammar.places.sampling import (
@@ -128,6 +136,13 @@ def on_path() -> Adjunct:
 def _on_path(command: CaptureCommand, _: None) -> CaptureCommand | None:
     shape = "" if command.place is None else getattr(command.place.selector, "shape", "")
     return command if shape else None
+
+
+@construction("capture: dist=every ALONG rows=rows", "capture: ALONG rows=rows dist=every", cost=0.6)
+def spaced_again(dist: float, rows: s.Selector, used: int) -> CaptureCommand:
+    """Compose "every 5 m along bed 8" behind what is captured at another place."""
+    along = PlaceMeaning(rows, "area")
+    return CaptureCommand((Thing(LAST_THING),), along, used, relation="along", spacing=dist)
 
 
 @construction("adjunct: on=grid_over", cost=0.2, given=("site",))

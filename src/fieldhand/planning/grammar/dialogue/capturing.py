@@ -111,7 +111,7 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
         state = enter(setting, state, state.area)  # "move two rows over and take another"
     state, begun = _along_from_its_end(state, command)
     same = any(one.action == LAST_THING and one.count is None for one in command.things)
-    if same and command.place is not None and command.place.shape == "area":
+    if same and command.place is not None and command.place.shape == "area" and command.spacing is None:
         raise NotComposed(message("at every tree, or at how many?", context="fault"))
     state, command = _with_unsaid_again(setting, state, command)
     state, things = named_things(setting, state, command)

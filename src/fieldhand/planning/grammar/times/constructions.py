@@ -126,7 +126,7 @@ def one_hour() -> float:
     return 60.0
 
 
-@construction("minutes: HALF AN HOURS", cost=0.0)
+@construction("minutes: HALF AN HOURS", "minutes: HALF HOURS", cost=0.0)
 def half_an_hour() -> float:
     """Compose "half an hour"."""
     return 30.0
