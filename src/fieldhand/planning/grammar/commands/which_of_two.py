@@ -64,8 +64,8 @@ def below_it() -> str:
     return "in"
 
 
-@construction("quantity: more=BARECMP", "quantity: DET what=MEDIUM more=BARECMP", cost=0.0, given=("robot",))
-@construction("quantity: more=BARECMP things=things", "quantity: more=BARECMP what=MEDIUM", cost=0.0, given=("robot",))
+@construction("more_of: more=BARECMP", "more_of: DET what=MEDIUM more=BARECMP", cost=0.0, given=("robot",))
+@construction("more_of: more=BARECMP things=things", "more_of: more=BARECMP what=MEDIUM", cost=0.0, given=("robot",))
 def compared_quantity(
     robot: RobotProfile, more: Lex, things: tuple[Thing, ...] = (), what: Lex | None = None
 ) -> list[tuple[Thing, ...]] | None:
@@ -77,13 +77,13 @@ def compared_quantity(
 
 
 @construction(
-    "comparing: [asks_whether] THEREIS what=quantity in_ first=place THAN [in_] second=place",
-    "comparing: IS IT what=quantity below_it first=place THAN [below_it] second=place",
-    "comparing: asks_whether IT IS what=quantity below_it first=place THAN [below_it] second=place",
-    "comparing: IS what=quantity below_it first=place THAN [below_it] second=place",
-    "comparing: IS first=place [HOLDS] what=quantity THAN [in_] second=place",
-    "comparing: ASKSDO first=place HOLDS what=quantity THAN [in_] second=place",
-    "comparing: asks_whether first=place IS what=quantity THAN [in_] second=place",
+    "comparing: [asks_whether] THEREIS what=more_of in_ first=place THAN [in_] second=place",
+    "comparing: IS IT what=more_of below_it first=place THAN [below_it] second=place",
+    "comparing: asks_whether IT IS what=more_of below_it first=place THAN [below_it] second=place",
+    "comparing: IS what=more_of below_it first=place THAN [below_it] second=place",
+    "comparing: IS first=place [HOLDS] what=more_of THAN [in_] second=place",
+    "comparing: ASKSDO first=place HOLDS what=more_of THAN [in_] second=place",
+    "comparing: asks_whether first=place IS what=more_of THAN [in_] second=place",
     cost=0.2,
 )
 def more_than(what: tuple[Thing, ...], first: PlaceMeaning, second: PlaceMeaning) -> _Compared | None:
