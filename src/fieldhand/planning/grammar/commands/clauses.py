@@ -200,7 +200,7 @@ def use_part() -> Clause:
 @construction("part: HANDLES things=things [PUTIN]", cost=0.5)
 def handled_part(things: tuple[Thing, ...]) -> Clause:
     """Compose "stick the moisture probe into the soil"."""
-    return _part("ut", things=things)
+    return Clause("ut", things=things)
 
 
 @construction("part: ASMANY", cost=0.0)

@@ -165,10 +165,10 @@ def its() -> PlaceMeaning:
     "place: [DET] [n=count] noun=NEIGHBOUR EACHSIDE [OF] [to=place]",
     "place: DET noun=ONE EACHSIDE OF to=place",
     "place: DET noun=ONE EACHSIDE to=here",
-    "place: DET [n=count] noun=TREE [DIRECTLY] BOTHWAYS to=place",
-    "place: DET noun=ONE [DIRECTLY] BOTHWAYS to=place",
-    "place: DET [n=count] noun=TREE [DIRECTLY] BOTHWAYS it=IT",
-    "place: DET noun=ONE [DIRECTLY] BOTHWAYS it=IT",
+    "place: DET [n=count] noun=TREE DIRECTLY BOTHWAYS to=place",
+    "place: DET noun=ONE DIRECTLY BOTHWAYS to=place",
+    "place: DET [n=count] noun=TREE DIRECTLY BOTHWAYS it=IT",
+    "place: DET noun=ONE DIRECTLY BOTHWAYS it=IT",
     cost=0.2,
 )
 def on_each_side(
