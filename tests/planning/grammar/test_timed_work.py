@@ -378,3 +378,15 @@ def test_a_time_that_is_awaited_later_is_refused(request_: str) -> None:
 def test_plants_behind_a_drive_to_bare_ground_are_elsewhere(request_: str, plan: str) -> None:
     heap = "rose bed" if "rose" in request_ else "manure heap"
     require_plan(GARDEN, HUSKY, request_, f"go PointsIn({heap}); {plan}")
+
+
+@pytest.mark.parametrize(
+    ("request_", "plan"),
+    [
+        ("Can you read CO2 at tree 4 tomorrow at 7 am?", "day=tomorrow not_before=07:00 not_after=07:15"),
+        ("Could you read CO2 at tree 4 every day at noon?", "at=12:00"),
+        ("We read CO2 at tree 4 at 6 am every day.", "at=06:00"),
+    ],
+)
+def test_what_is_asked_of_you_was_not_done_before(request_: str, plan: str) -> None:
+    require_plan(ORCHARD, HUSKY, request_, f"co2 @ TreeIs(4) | {plan}")
