@@ -60,6 +60,12 @@ AT_TIMES = [
     (PASTURE, TRACTOR, "Mow the boggy corner on Friday at 7 am and come home if it rains.",
      "mow area InZone(boggy corner) | day=fri not_before=07:00 not_after=07:15 | return_to_start | at "
      "any time rain: return_to_start"),
+    (PASTURE, HUSKY, "Read CO2 at both gates every quarter of an hour from 5 to 7 am.",
+     f"{ROUND} | at=05:00 every_min=15 until=07:00 late_min=15"),
+    (PASTURE, HUSKY, "From sunrise until ten in the morning, read CO2 at both gates every half hour.",
+     f"{ROUND} | at=sunrise every_min=30 until=10:00 late_min=30"),
+    (PASTURE, HUSKY, "Start tomorrow at nine and stop by noon: read CO2 at both gates.",
+     f"{ROUND} | day=tomorrow not_before=09:00 not_after=09:15 done_by=12:00"),
     (ORCHARD, TRACTOR, "Spray row 4 tonight at ten and stop if someone is in the row.",
      "spray rows Rows(4, 4) | day=today not_before=22:00 not_after=22:15 | at any time person_near: wait, then end"),
 ]  # fmt: skip
@@ -156,6 +162,7 @@ AGAIN_LATER = [
      "for UnionOf(PointsIn(hot bay)+PointsIn(mild bay)): [co2]"),
     (GLASSHOUSE, HUSKY, "Photograph every melon, then do the same again an hour later.",
      "for Where(crop, eq, melon): [picture]; wait 3600; for Where(crop, eq, melon): [picture]"),
+    (ORCHARD, HUSKY, "Read CO2 at tree 4 now and again in an hour.", "co2 @ TreeIs(4); wait 3600; co2"),
     (ORCHARD, HUSKY,
      "Read CO2 at tree 4, then in half an hour do it again.",
      "co2 @ TreeIs(4); wait 1800; co2 @ TreeIs(4)"),
@@ -371,3 +378,15 @@ def test_a_time_that_is_awaited_later_is_refused(request_: str) -> None:
 def test_plants_behind_a_drive_to_bare_ground_are_elsewhere(request_: str, plan: str) -> None:
     heap = "rose bed" if "rose" in request_ else "manure heap"
     require_plan(GARDEN, HUSKY, request_, f"go PointsIn({heap}); {plan}")
+
+
+@pytest.mark.parametrize(
+    ("request_", "plan"),
+    [
+        ("Can you read CO2 at tree 4 tomorrow at 7 am?", "day=tomorrow not_before=07:00 not_after=07:15"),
+        ("Could you read CO2 at tree 4 every day at noon?", "at=12:00"),
+        ("We read CO2 at tree 4 at 6 am every day.", "at=06:00"),
+    ],
+)
+def test_what_is_asked_of_you_was_not_done_before(request_: str, plan: str) -> None:
+    require_plan(ORCHARD, HUSKY, request_, f"co2 @ TreeIs(4) | {plan}")

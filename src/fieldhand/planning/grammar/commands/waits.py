@@ -258,6 +258,8 @@ def repeated_later(
 @construction(
     "said: before=said joint=joint once_more_act time=later",
     "said: before=said joint=joint time=later [COMMA] once_more_act",
+    "said: before=said joint=joint once_more_act time=from_now",
+    "said: before=said joint=joint time=from_now [COMMA] once_more_act",
     cost=0.3,
 )
 def again_later(before: Said, joint: Connective, time: float, used: int) -> Said | None:

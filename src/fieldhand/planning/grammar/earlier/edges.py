@@ -30,6 +30,8 @@ def told_done() -> tuple[tuple[str, re.Pattern[str]], ...]:
     told, works = known["told"], [verb for of in known["works"].values() for verb in of]
     kinds = ("any", "measured", "picture")
     verbs = {name: [*works, *(one for of in kinds for one in known[name][of])] for name in ("participles", "actives")}
+    same = {verb for of in kinds for verb in known["bases"].get(of, ())}  # "can you read CO2" tells nothing
+    verbs["actives"] = [verb for verb in verbs["actives"] if verb not in same]
     part, active = (f"(?:{'|'.join(sorted(verbs[name], key=len, reverse=True))})" for name in verbs)
     times = rf"(?:{'|'.join(told['when'])})"
     behind = told["behind"].replace("{when}", f"(?: {times})*").replace("{part}", part)

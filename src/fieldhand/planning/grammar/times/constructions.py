@@ -126,6 +126,12 @@ def one_hour() -> float:
     return 60.0
 
 
+@construction("minutes: QUARTER OF AN HOURS", "minutes: QUARTER HOURS", cost=0.0)
+def quarter_of_an_hour() -> float:
+    """Compose "a quarter of an hour"."""
+    return 15.0
+
+
 @construction("minutes: HALF AN HOURS", "minutes: HALF HOURS", cost=0.0)
 def half_an_hour() -> float:
     """Compose "half an hour"."""
