@@ -144,6 +144,15 @@ def _is_missed(under: Path, folder: Path, out: Path, files: list[str]) -> None:
     assert not (out / files[1]).exists()
 
 
+def test_each_camera_is_checked(tmp_path: Path) -> None:
+    husky = with_cameras(tmp_path)
+    with sim_robot(tmp_path, "--site", "demo", "--robot", husky, "--speed", FAST) as robot:
+        there = fieldhand("robot", "check", husky, "--live", *robot.reached[:-1])
+        assert there.status == 0, there.out + there.err
+    assert there.out.count("160 x 120 pixels") == 2
+    assert "rgb8" in there.out
+
+
 def test_images_of_a_call_and_of_an_action_without_readings(tmp_path: Path) -> None:
     """The image is in the response of a service."""
     robot: dict[str, Any] = yaml.safe_load(profile_bytes("husky")[0])

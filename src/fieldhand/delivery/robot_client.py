@@ -162,7 +162,7 @@ class RobotClient:
         Raises:
             DeliveryError: There is no such image.
         """
-        status, body = self._send("GET", f"/agent/missions/{sha256}/images/{name}", most=MOST_IMAGE)
+        status, body = self._send("GET", f"/agent/missions/{sha256}/images/{name}", MOST_IMAGE)
         if status != 200:
             raise self._problem(status, body)
         return body
@@ -170,7 +170,7 @@ class RobotClient:
     def _ask(self, model: type[A], method: str, path: str, **more: object) -> A:
         return self._read(model, *self._send(method, path, **more))
 
-    def _send(self, method: str, path: str, *, most: int | None = None, **more: object) -> tuple[int, bytes]:
+    def _send(self, method: str, path: str, most: int = MOST_ANSWER, /, **more: object) -> tuple[int, bytes]:
         """Return status and body of the response to a request."""
         import httpx
 
@@ -179,7 +179,7 @@ class RobotClient:
                 body = bytearray()
                 for chunk in answer.iter_bytes():
                     body += chunk
-                    if len(body) > (MOST_ANSWER if most is None else most):
+                    if len(body) > most:
                         raise DeliveryError("the answer is too large", where=self._at)
                 return answer.status_code, bytes(body)
         except httpx.TransportError as error:

@@ -29,7 +29,7 @@ from fieldhand.execution.drivers.ros2.navigation import FROM_LL, SPEED_LIMIT
 from fieldhand.execution.drivers.ros2.node_states import GET_STATE
 from fieldhand.execution.drivers.ros2.plausibility import MessageCheck
 from fieldhand.execution.drivers.ros2.telemetry import fix_problem
-from fieldhand.execution.drivers.ros2.transport import QosProfile, Rmw, RosMessage, Transport
+from fieldhand.execution.drivers.ros2.transport import IMAGE_TYPES, QosProfile, Rmw, RosMessage, Transport
 from fieldhand.robot.bindings import (
     CallBinding,
     EventBinding,
@@ -333,6 +333,14 @@ class _Bindings:
         paths = [(binding.path, _NUMBERS) for binding in call.readings.values()]
         paths += [(path, kinds) for path, kinds in ((call.success, ("bool",)), (call.message, ("string",))) if path]
         yield from self._wrong(call.type, f"{call.type}_{answered}", paths)
+        for path in call.images.values():
+            try:
+                kind = self._interfaces.field_at(f"{call.type}_{answered}", path).base
+            except Ros2Error as error:
+                yield str(error)
+                continue
+            if kind not in IMAGE_TYPES:
+                yield f"{path} of {call.type} is {kind}, not an image ({' or '.join(IMAGE_TYPES)})"
 
     def _wrong(self, type_name: str, message: str, paths: _Paths) -> Iterator[str]:
         """Yield an unknown type, or the paths that do not lead to a value of an allowed type."""

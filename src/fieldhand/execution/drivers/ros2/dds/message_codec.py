@@ -69,7 +69,7 @@ class MessageCodec:
         if (message, with_header) not in self._outer:
             made = self._idl_type(message, with_header=with_header)
             # One malformed message must not hide the valid ones taken with it.
-            made.deserialize = classmethod(partial(_deserialize, most=most_bytes(message)))
+            made.deserialize = classmethod(partial(_deserialize, message=message))
             self._outer[message, with_header] = made
         return self._outer[message, with_header]
 
@@ -130,9 +130,9 @@ class MessageCodec:
 
 
 def _deserialize(
-    cls: Any, data: bytes, has_header: bool = True, use_version_2: bool | None = None, *, most: int
+    cls: Any, data: bytes, has_header: bool = True, use_version_2: bool | None = None, *, message: str
 ) -> Any:
-    if len(data) > most:
+    if len(data) > (most := most_bytes(message)):
         return Unreadable(f"it has {len(data)} bytes, more than {most}")
     try:
         return cls.__idl__.deserialize(data, has_header=has_header, use_version_2=use_version_2)

@@ -55,7 +55,7 @@ class CaptureCall:
         self._answer = f"{call.type}_{'Result' if call.kind == 'action' else 'Response'}"
         for binding in call.readings.values():
             interfaces.field_at(self._answer, binding.path)
-        for path in filter(None, (call.success, call.message)):
+        for path in filter(None, (call.success, call.message, *call.images.values())):
             interfaces.field_at(self._answer, path)
 
     def begin(self, request: RosMessage, over: Callable[[RosMessage, bool], None]) -> None:
