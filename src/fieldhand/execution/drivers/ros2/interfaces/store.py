@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from functools import cache
 from importlib.resources import files
-from importlib.resources.abc import Traversable
 
+from fieldhand.compatibility import Traversable
 from fieldhand.errors import ProfileError, Ros2Error
 from fieldhand.execution.drivers.ros2.interfaces import validation
 from fieldhand.execution.drivers.ros2.interfaces.definitions import (
