@@ -336,7 +336,7 @@ class EventBindingDocument(_TopicDocument, _ConvertedDocument):
 class Ros2Document(Keyed):
     """The ``ros2`` part of a profile."""
 
-    distro: Distro
+    distro: Distro | None = None
     namespace: Annotated[str, AfterValidator(as_namespace)] = ""
     use_sim_time: bool = False
     navigation: NavigationDocument
