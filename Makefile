@@ -1,4 +1,4 @@
-# A fresh machine needs Python 3.11 or newer and make; each target below starts from a bare clone.
+# A fresh machine needs Python 3.10 or newer and make; each target below starts from a bare clone.
 .PHONY: help setup demo test check docs clean
 .DEFAULT_GOAL := help
 

@@ -34,7 +34,7 @@ import threading
 import time
 from collections import Counter
 from contextlib import closing, suppress
-from datetime import UTC, datetime, timedelta
+from datetime import datetime, timedelta
 from hashlib import sha256
 from pathlib import Path
 
@@ -44,6 +44,7 @@ from fieldhand.approval.bundle.opening import unseal
 from fieldhand.approval.bundle.packing import pack
 from fieldhand.approval.keys.signing import SigningKeys
 from fieldhand.approval.keys.trust import TrustStore
+from fieldhand.compatibility import UTC
 from fieldhand.delivery.json_models import AgentCommand, CommandResponse
 from fieldhand.delivery.robot_client import RobotClient, open_client
 from fieldhand.errors import DeliveryError, UnreachableError

@@ -5,14 +5,14 @@ set -eu
 venv=$1
 
 python=
-for name in python3 python3.13 python3.12 python3.11; do
-    if command -v "$name" >/dev/null 2>&1 && "$name" -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then
+for name in python3 python3.13 python3.12 python3.11 python3.10; do
+    if command -v "$name" >/dev/null 2>&1 && "$name" -c 'import sys; sys.exit(sys.version_info < (3, 10))' 2>/dev/null; then
         python=$name
         break
     fi
 done
 if [ -z "$python" ]; then
-    echo "Fieldhand needs Python 3.11 or newer, and none was found. On Debian 12: apt-get install python3" >&2
+    echo "Fieldhand needs Python 3.10 or newer, and none was found. On Debian 12: apt-get install python3" >&2
     exit 2
 fi
 

@@ -7,7 +7,6 @@ import re
 import shlex
 import subprocess
 import sys
-import tomllib
 from contextlib import ExitStack
 from importlib import import_module
 from importlib.util import find_spec, module_from_spec, spec_from_file_location
@@ -19,6 +18,7 @@ import pytest
 
 import fieldhand as fh
 from fieldhand import errors
+from fieldhand.compatibility import tomllib
 from fieldhand.places.selectors import SELECTORS
 from fieldhand.plugins import GROUPS
 from ros2.conftest import LOOPBACK

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import json
-from datetime import UTC, datetime
+from datetime import datetime
 
 import pytest
 
 from fieldhand import finished_missions, mission
+from fieldhand.compatibility import UTC
 from fieldhand.errors import InputError
 from fieldhand.evaluation.report.log_facts import end_of
 from fieldhand.execution.drivers.simulation.world import World

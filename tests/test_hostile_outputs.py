@@ -14,7 +14,7 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 from urllib.parse import quote
@@ -27,6 +27,7 @@ from fieldhand.approval.authorize import EveryWarning, approve
 from fieldhand.approval.bundle.opening import unseal
 from fieldhand.approval.bundle.packing import pack
 from fieldhand.approval.checks import examine
+from fieldhand.compatibility import UTC
 from fieldhand.places.selectors import TreeIs, Where
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.llm.scripted import ScriptedEndpoint

@@ -74,11 +74,6 @@ def _reason(error: Exception) -> str:
     return (error.strerror if isinstance(error, OSError) else None) or str(error) or type(error).__name__
 
 
-def sqlite_code(error: Exception) -> int:
-    """Return the primary result code of an SQLite error; 0 for any other error."""
-    return getattr(error, "sqlite_errorcode", 0) & 0xFF
-
-
 def open_output(path: Path, mode: Literal["a", "w", "wb"]) -> IO[Any]:
     """Open a file to be written in pieces; ``-`` is standard output. Text is UTF-8 without line-end conversion.
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 import base64
 import json
 import unicodedata
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 
 import pytest
@@ -22,6 +22,7 @@ from fieldhand.approval.keys.curve import is_sound
 from fieldhand.approval.keys.names import clean_name, look_alike
 from fieldhand.approval.keys.public import PublicKey, parse_public
 from fieldhand.approval.keys.trust import TrustStore
+from fieldhand.compatibility import UTC
 from fieldhand.errors import BundleError, KeyFileError
 from support.examples import examples
 from support.missions.signed import good, members_of, signing_key

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import stat
-from datetime import UTC, datetime, timedelta
+from datetime import datetime, timedelta
 from pathlib import Path
 
 import pytest
@@ -18,6 +18,7 @@ from fieldhand.approval.keys.public import PublicKey, parse_fingerprint, parse_p
 from fieldhand.approval.keys.signing import SigningKeys
 from fieldhand.approval.keys.trust import TrustStore
 from fieldhand.approval.production import in_production, require_unsigned_allowed
+from fieldhand.compatibility import UTC
 from fieldhand.errors import InputError, KeyFileError, NotTrustedError, OutputError
 from support.missions.signed import signing_key
 

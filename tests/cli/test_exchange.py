@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from dataclasses import replace
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 
 import pytest
@@ -17,6 +17,7 @@ from fieldhand.cli.export_nav2 import export_site
 from fieldhand.cli.import_tree import import_tree
 from fieldhand.cli.replay import replay
 from fieldhand.cli.report import report
+from fieldhand.compatibility import UTC
 from fieldhand.errors import InputError
 from fieldhand.task.codec import encode
 from fieldhand.task.event_lines import to_json

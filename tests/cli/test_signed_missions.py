@@ -10,7 +10,7 @@ import sys
 from collections import Counter
 from collections.abc import Callable
 from contextlib import closing
-from datetime import UTC, datetime
+from datetime import datetime
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -23,6 +23,7 @@ from fieldhand import missions
 from fieldhand.approval.keys.signing import SigningKeys
 from fieldhand.approval.keys.trust import TrustStore
 from fieldhand.cli import app, approving, main, show
+from fieldhand.compatibility import UTC
 from fieldhand.exchange.mcap import read_mcap
 from fieldhand.execution.journal import store
 from fieldhand.robot.loader import profile_bytes

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
-from datetime import UTC, datetime, timedelta
+from datetime import datetime, timedelta
 from pathlib import Path
 
 import pytest
@@ -13,6 +13,7 @@ from fieldhand import missions
 from fieldhand.approval.authorize import EveryWarning, approve
 from fieldhand.approval.bundle.packing import pack
 from fieldhand.approval.checks import examine
+from fieldhand.compatibility import UTC
 from fieldhand.delivery.bundle_checks import sha256_of
 from fieldhand.delivery.received_missions import ReceivedMission
 from fieldhand.errors import JournalError, NotApprovedError

@@ -6,7 +6,7 @@ import random
 from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from datetime import UTC, datetime, timedelta
+from datetime import datetime, timedelta
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
@@ -16,6 +16,7 @@ from zoneinfo import ZoneInfo
 import pytest
 
 from fieldhand import missions
+from fieldhand.compatibility import UTC
 from fieldhand.delivery.bundle_checks import sha256_of
 from fieldhand.delivery.received_missions import ReceivedMission
 from fieldhand.delivery.robot_client import RobotClient

@@ -7,7 +7,7 @@ import shutil
 import sqlite3
 from contextlib import closing
 from dataclasses import replace
-from datetime import UTC, datetime, timedelta
+from datetime import datetime, timedelta
 from importlib import import_module
 from pathlib import Path
 
@@ -15,6 +15,7 @@ import pytest
 
 from fieldhand import mission, missions
 from fieldhand.approval.authorize import EveryWarning
+from fieldhand.compatibility import UTC
 from fieldhand.errors import InputError, TaskError
 from fieldhand.exchange.btcpp import read_tree, write_tree
 from fieldhand.execution.event_log import EventLog

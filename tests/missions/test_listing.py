@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from contextlib import suppress
-from datetime import UTC, datetime, timedelta
+from datetime import datetime, timedelta
 from pathlib import Path
 
 import pytest
@@ -15,6 +15,7 @@ from typer.testing import CliRunner
 
 from fieldhand import missions
 from fieldhand.cli.app import assemble
+from fieldhand.compatibility import UTC
 from fieldhand.errors import JournalError
 from fieldhand.execution.journal import store
 from fieldhand.folders import FolderLock

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from datetime import UTC, datetime, timedelta
+from datetime import datetime, timedelta
 
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from fieldhand.compatibility import UTC
 from fieldhand.errors import NoPlaceError, PlaceError
 from fieldhand.places.context import Context
 from fieldhand.places.earlier.period import Period

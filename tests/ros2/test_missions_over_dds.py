@@ -11,7 +11,7 @@ import os
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import datetime
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -24,6 +24,7 @@ from fieldhand import mission, missions
 from fieldhand.approval.authorize import EveryWarning
 from fieldhand.cli.app import assemble
 from fieldhand.cli.demo import MISSIONS, DemoName
+from fieldhand.compatibility import UTC
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.ros2 import robot_connection
 from fieldhand.execution.drivers.ros2.robot_connection import connected_robot

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 
 import pytest
@@ -10,6 +10,7 @@ import yaml
 
 from fieldhand import mission
 from fieldhand.approval.authorize import EveryWarning
+from fieldhand.compatibility import UTC
 from fieldhand.places.selectors import TreeIs
 from fieldhand.robot.loader import load_robot, profile_bytes
 from fieldhand.site.loader import open_site

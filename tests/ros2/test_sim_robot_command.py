@@ -68,7 +68,7 @@ def test_a_killed_robot_goes_on_where_it_stood_and_a_told_one_ends_in_order(tmp_
     words = ("--robot", husky, "--world", str(world), "--speed", "20", "--state", str(state))
     site, robot = open_site("demo"), load_robot(husky)
     assert robot.ros2 is not None
-    interfaces = interfaces_of(robot.ros2.distro, tuple(robot.ros2.interfaces.items()))
+    interfaces = interfaces_of(robot.ros2.release, tuple(robot.ros2.interfaces.items()))
     capture = ActionGoal(action="read_co2", place=site.trees[0].place)
 
     @contextmanager

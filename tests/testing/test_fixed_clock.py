@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from datetime import UTC, datetime, timedelta
+from datetime import datetime, timedelta
 
 import pytest
 
 from fieldhand.clock import WallClock
+from fieldhand.compatibility import UTC
 from fieldhand.testing.fixed_clock import FixedClock
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from datetime import UTC, date, datetime, timedelta
+from datetime import date, datetime, timedelta
 from itertools import islice, pairwise
 from pathlib import Path
 from zoneinfo import ZoneInfo
@@ -13,6 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from fieldhand.compatibility import UTC
 from fieldhand.errors import TaskError
 from fieldhand.task.timing import WEEKDAYS, DayTime, Schedule, StartTime
 from fieldhand.timetable.day_times import Locality, instant, local_zone

@@ -6,12 +6,13 @@ import time
 from collections import defaultdict, deque
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from datetime import UTC, datetime
+from datetime import datetime
 from functools import cache
 from typing import TYPE_CHECKING, Literal
 
 from fieldhand import mission
 from fieldhand.approval.authorize import EveryWarning
+from fieldhand.compatibility import UTC
 from fieldhand.errors import FieldhandError, NotApprovedError
 from fieldhand.execution.drivers.simulation.world import World
 from fieldhand.execution.guard import Guard

@@ -5,13 +5,14 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from datetime import UTC, datetime
+from datetime import datetime
 from typing import Any
 
 import numpy as np
 
 from fieldhand import mission
 from fieldhand.approval.authorize import EveryWarning
+from fieldhand.compatibility import UTC
 from fieldhand.errors import DriveFault, FieldhandError, NotApprovedError, PlaceError, SiteError
 from fieldhand.forecast.branch_estimate import BranchEstimate
 from fieldhand.places.selector import Selector

@@ -7,7 +7,7 @@ import os
 import time
 from collections.abc import Callable
 from dataclasses import asdict
-from datetime import UTC, datetime
+from datetime import datetime
 from typing import Any
 
 from fastapi import APIRouter
@@ -20,6 +20,7 @@ from fieldhand.api.maps import driven_map
 from fieldhand.api.plan import Planners
 from fieldhand.api.work import Limits, Workers
 from fieldhand.approval.production import require_unsigned_allowed
+from fieldhand.compatibility import UTC
 from fieldhand.mission.documents import SiteAndRobot
 from fieldhand.planning.planner import Planned
 from fieldhand.task.event_lines import to_json

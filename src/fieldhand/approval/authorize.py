@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Container
-from datetime import datetime
 
 from fieldhand.approval.checks import Examination
+from fieldhand.compatibility import datetime_from_iso
 from fieldhand.errors import NotApprovedError, NotConfirmedError
 from fieldhand.language import joined, message, open_language
 from fieldhand.robot.model import RobotProfile
@@ -124,7 +124,7 @@ def _require_confirmed(warnings: tuple[str, ...], confirmed: Container[str]) -> 
 
 def _require_moment(at: str) -> None:
     try:
-        moment = datetime.fromisoformat(at)
+        moment = datetime_from_iso(at)
     except ValueError:
         moment = None
     if moment is None or moment.tzinfo is None:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from datetime import UTC, datetime, timedelta, timezone
+from datetime import datetime, timedelta, timezone
 from itertools import islice
 
 from fieldhand.approval.problem import PlanProblem
+from fieldhand.compatibility import UTC
 from fieldhand.errors import TaskError
 from fieldhand.forecast.estimate import Estimate
 from fieldhand.language import message

@@ -19,6 +19,7 @@ from fieldhand.cli.options import (
     SiteAndRobotOptions,
 )
 from fieldhand.cli.outputs import to_whole_file
+from fieldhand.compatibility import datetime_from_iso
 from fieldhand.language import message
 
 if TYPE_CHECKING:
@@ -57,7 +58,6 @@ def approve(
     """Show what a mission will do and take, ask for approval, and sign it for the robot."""
     import os
     from dataclasses import replace
-    from datetime import datetime
 
     from fieldhand import mission
     from fieldhand.approval.keys.signing import SigningKeys
@@ -87,7 +87,7 @@ def approve(
     approved = approve_plan(review, approval, display, message("Approve and sign?"))
     authorization = approved.authorized.authorization
     opened = keys.open(key, passphrase)
-    number = keys.next_number(key, datetime.fromisoformat(authorization.at))
+    number = keys.next_number(key, datetime_from_iso(authorization.at))
     data = mission.sign(approved, files, key=opened, planner=planner, valid_for=valid_for, number=number)
     write_whole(output, data)
     if display.json:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import getpass
-from datetime import UTC, datetime
+from datetime import datetime
 
 from fieldhand import mission
 from fieldhand.cli import show
 from fieldhand.cli.console import working
 from fieldhand.cli.inputs import may_ask
 from fieldhand.cli.options import ApprovalOptions, DisplayOptions
+from fieldhand.compatibility import UTC
 from fieldhand.errors import NotApprovedError, NotConfirmedError
 from fieldhand.language import Language, Message, counted, joined, message
 from fieldhand.language.words import some_names

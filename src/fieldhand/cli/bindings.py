@@ -15,7 +15,7 @@ def binding_lines(profile: RobotProfile) -> Iterator[str]:
         yield "ROS 2: the profile does not define how the robot is reached"
         return
     time = ", time from /clock" if ros2.use_sim_time else ""
-    yield f"ROS 2: {ros2.distro}, names below {ros2.namespace or '/'}{time}"
+    yield f"ROS 2: {ros2.distro or 'the release of the robot'}, names below {ros2.namespace or '/'}{time}"
     yield f"  drives by {ros2.whole_name(ros2.navigation.action)} ({ros2.navigation.type}) {_map(ros2)}"
     if ros2.navigation.working:
         working = ros2.navigation.working

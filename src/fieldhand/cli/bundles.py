@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 from dataclasses import asdict
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from fieldhand import mission
+from fieldhand.compatibility import UTC
 from fieldhand.errors import BundleError, InputError
 from fieldhand.files import STANDARD
 from fieldhand.language import message

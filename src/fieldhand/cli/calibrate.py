@@ -32,11 +32,12 @@ def calibrate(
 ) -> None:
     """Fit speed, energy, durations and the spread of legs to past missions, and show how well that predicts them."""
     import os
-    from datetime import UTC, datetime
+    from datetime import datetime
 
     from fieldhand import finished_missions
     from fieldhand.cli import show
     from fieldhand.cli.inputs import write_file
+    from fieldhand.compatibility import UTC
     from fieldhand.robot.loader import load_robot
 
     robot = load_robot(name)

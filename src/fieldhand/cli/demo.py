@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -20,6 +19,7 @@ from fieldhand.cli.options import (
     SeedOption,
 )
 from fieldhand.cli.outputs import to_folder
+from fieldhand.compatibility import StrEnum
 
 if TYPE_CHECKING:
     from fieldhand.execution.drivers.simulation.world import ScriptedEvent

@@ -27,11 +27,12 @@ def inspect(
 ) -> None:
     """Show who approved a mission, when, and what it will do; exit status 1 if it would not run here."""
     import os
-    from datetime import UTC, datetime
+    from datetime import datetime
 
     from fieldhand import mission
     from fieldhand.approval.bundle.container import read_bundle_file
     from fieldhand.cli import show
+    from fieldhand.compatibility import UTC
     from fieldhand.language import spoken
 
     language = spoken(lang, os.environ)

@@ -99,11 +99,12 @@ def trust(
     json: JsonOption = False,
 ) -> None:
     """Trust a key, so that missions signed with it may run."""
-    from datetime import UTC, datetime
+    from datetime import datetime
 
     from fieldhand.approval.keys.public import parse_fingerprint, parse_public
     from fieldhand.approval.keys.rights import MAX_BYTES, not_a_key
     from fieldhand.cli import show
+    from fieldhand.compatibility import UTC
     from fieldhand.errors import KeyFileError
     from fieldhand.files import FileFault, read_file
 
@@ -138,9 +139,10 @@ def revoke(
     json: JsonOption = False,
 ) -> None:
     """Revoke a key for good: no mission signed with it runs again."""
-    from datetime import UTC, datetime
+    from datetime import datetime
 
     from fieldhand.cli import show
+    from fieldhand.compatibility import UTC
 
     known = _folders()[1].revoke(fingerprint, at=datetime.now(UTC))
     if json:
@@ -162,12 +164,13 @@ def confirm(
 ) -> None:
     """Confirm that the list of trusted keys and the clock are right."""
     import os
-    from datetime import UTC, datetime
+    from datetime import datetime
 
     from fieldhand.approval.memory import approval_memory
     from fieldhand.cli import show
     from fieldhand.cli.approve import parse_validity
     from fieldhand.cli.inputs import may_ask
+    from fieldhand.compatibility import UTC
     from fieldhand.errors import NotApprovedError
 
     trust, now = _folders()[1], datetime.now(UTC)

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+from fieldhand.compatibility import UTC
 
 if TYPE_CHECKING:
     from fieldhand.delivery.bundle_checks import Sendable

@@ -28,9 +28,10 @@ def missions(
     json: JsonOption = False,
 ) -> None:
     """List all missions, the newest last; --prune and --keep remove old ones that have ended, never others."""
-    from datetime import UTC, datetime
+    from datetime import datetime
 
     from fieldhand.cli import show
+    from fieldhand.compatibility import UTC
     from fieldhand.missions import missions_folder
     from fieldhand.missions.listing import list_missions, older_than, removable, remove
 

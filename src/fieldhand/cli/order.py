@@ -9,6 +9,7 @@ import typer
 from fieldhand.cli.links import LinkOptions, MissionOfRobot, UrlArgument
 from fieldhand.cli.option_groups import grouped
 from fieldhand.cli.options import JsonOption
+from fieldhand.compatibility import datetime_from_iso
 
 if TYPE_CHECKING:
     from datetime import datetime
@@ -61,12 +62,11 @@ def parse_run(text: str) -> datetime:
     Raises:
         InputError: The text is not a date and time with its offset from UTC.
     """
-    from datetime import datetime
 
     from fieldhand.errors import InputError
 
     try:
-        found = datetime.fromisoformat(text)
+        found = datetime_from_iso(text)
     except ValueError:
         found = None
     if found is None or found.tzinfo is None:

@@ -5,13 +5,14 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fieldhand.cli.bundles import is_bundle, require_site
 from fieldhand.cli.inputs import open_site_and_robot
 from fieldhand.cli.options import RecordedOptions
+from fieldhand.compatibility import UTC
 from fieldhand.errors import InputError
 from fieldhand.language import ENGLISH, Language, message
 from fieldhand.mission.documents import SiteAndRobot

@@ -30,31 +30,51 @@ def check(
     from dataclasses import replace
 
     from fieldhand.cli import show
-    from fieldhand.execution.drivers.ros2.interfaces import Interfaces
-    from fieldhand.execution.drivers.ros2.profile_check import bindings_of, check_types
+    from fieldhand.execution.drivers.ros2.profile_check import bindings_of
     from fieldhand.robot.loader import load_robot
 
     profile = load_robot(name)
     bindings = transport.in_namespace(bindings_of(profile))
     profile = replace(profile, ros2=bindings)
-    interfaces = Interfaces.of(bindings.distro, bindings.interfaces)
-    report = _check_live(profile, interfaces, transport, within) if live else check_types(profile, interfaces)
+    report = _check_live(profile, transport, within) if live else _check_types(profile)
     if json:
         show.print_json(_record(profile, report, live=live))
     else:
         for line in _lines(profile, report, live=live):
             show.out.print(line)
-    if report.missing:
+    if report.missing or report.other_release:
         raise typer.Exit(1)
 
 
-def _check_live(profile: RobotProfile, interfaces: Any, transport: TransportOptions, within_s: float) -> ProfileReport:
+def _check_types(profile: RobotProfile) -> ProfileReport:
+    """Check a profile against its release; one that insists on none, against the release that it fits best."""
+    from typing import get_args
+
+    from fieldhand.execution.drivers.ros2.interfaces import Interfaces
+    from fieldhand.execution.drivers.ros2.profile_check import bindings_of, check_types
+    from fieldhand.robot.bindings import Distro
+
+    bindings = bindings_of(profile)
+    releases: tuple[Distro, ...] = get_args(Distro) if bindings.distro is None else (bindings.distro,)
+    reports = []
+    for release in releases:
+        reports.append(check_types(profile, Interfaces.of(release, bindings.interfaces)))
+        if not reports[-1].missing:
+            break
+    return min(reports, key=lambda report: len(report.missing))
+
+
+def _check_live(profile: RobotProfile, transport: TransportOptions, within_s: float) -> ProfileReport:
     import time
     from contextlib import closing
 
+    from fieldhand.execution.drivers.ros2.interfaces import Interfaces
     from fieldhand.execution.drivers.ros2.open_transport import open_transport
-    from fieldhand.execution.drivers.ros2.profile_check import check_live
+    from fieldhand.execution.drivers.ros2.profile_check import bindings_of, check_live
+    from fieldhand.execution.drivers.ros2.robot_connection import with_release
 
+    bindings = with_release(bindings_of(profile), transport.on, transport.domain, within_s)
+    interfaces = Interfaces.of(bindings.release, bindings.interfaces)
     with closing(open_transport(transport.on, interfaces, transport.domain)) as node:
         return check_live(profile, node, interfaces, within_s=within_s, steady=time.monotonic, sleep=time.sleep)
 
@@ -67,13 +87,16 @@ def _lines(profile: RobotProfile, report: ProfileReport, *, live: bool) -> list[
     if live and not report.rmw:
         lines.append("Nothing of this robot was found on this ROS domain (--domain, ROS_DOMAIN_ID).")
     elif live:
-        lines.append(f"The robot runs {' and '.join(map(rmw_package, report.rmw))}.")
-    if not report.missing:
+        release = f", ROS 2 {' or '.join(report.heard)}" if report.heard else ""
+        lines.append(f"The robot runs {' and '.join(map(rmw_package, report.rmw))}{release}.")
+    if (other := report.other_release) is not None:
+        lines += [f"MISSING distro: {other[0]}", f"          {other[1]}"]
+    if not report.missing and other is None:
         return [
             *lines,
             f"All {bindings} can be used." if live else f"All {bindings} fit their types; --live tries them.",
         ]
-    return [*lines, f"{len(report.missing)} of {bindings} cannot be used."]
+    return [*lines, f"{len(report.missing)} of {bindings} cannot be used."] if report.missing else lines
 
 
 def _finding_lines(finding: EndpointReport) -> list[str]:
@@ -88,7 +111,8 @@ def _record(profile: RobotProfile, report: ProfileReport, *, live: bool) -> dict
     return {
         "robot": profile.name,
         "live": live,
-        "usable": not report.missing,
+        "usable": not report.missing and report.other_release is None,
+        "distro": {"profile": report.insisted, "heard": report.heard},
         "rmw": list(report.rmw),
         "bindings": [
             {**asdict(f.binding), "usable": f.usable, "what": f.what, "advice": f.advice, "rmw": list(f.rmw)}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,6 +18,7 @@ from fieldhand.cli.driver_options import check_start
 from fieldhand.cli.inputs import write_file
 from fieldhand.cli.options import ApprovalOptions, DisplayOptions, OutputOptions
 from fieldhand.cli.outputs import mission_files
+from fieldhand.compatibility import UTC
 from fieldhand.language import kept_in_log, message
 from fieldhand.mission.documents import InputFiles
 from fieldhand.task.results import Ended, Event, MissionStatus

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from fieldhand.cli.links import LinkOptions, MissionOfRobot, UrlArgument
 from fieldhand.cli.option_groups import grouped
 from fieldhand.cli.options import JsonOption
+from fieldhand.compatibility import datetime_from_iso
 
 if TYPE_CHECKING:
     from fieldhand.delivery.json_models import MissionSummary, Runs
@@ -55,6 +56,5 @@ def _outcome(run: MissionSummary) -> str:
 
 
 def _local(text: str) -> str:
-    from datetime import datetime
 
-    return datetime.fromisoformat(text).astimezone().strftime("%a %d %b %H:%M")
+    return datetime_from_iso(text).astimezone().strftime("%a %d %b %H:%M")

@@ -16,14 +16,14 @@ from fieldhand.cli.outputs import refuse_standard_output, to_whole_file
 if TYPE_CHECKING:
     from fieldhand.execution.drivers.ros2.simulated_robot.robot import GoalReport
     from fieldhand.execution.drivers.simulation.world import World
-    from fieldhand.robot.bindings import Ros2Bindings
+    from fieldhand.robot.bindings import Distro, Ros2Bindings
     from fieldhand.robot.model import RobotProfile
 
 #: Highest speed: above it, the robot would drive for minutes between two checks of its messages.
 _FASTEST = 1000.0
 
 
-@grouped("site robot world seed speed on domain namespace state lenient json")
+@grouped("site robot world seed speed distro on domain namespace state lenient json")
 def sim_robot(
     place: SiteAndRobotOptions,
     transport: TransportOptions,
@@ -40,6 +40,14 @@ def sim_robot(
         Path | None,
         typer.Option(
             "--state", callback=to_whole_file, help="Continue from this file if it exists, and keep it up to date."
+        ),
+    ] = None,
+    distro: Annotated[
+        str | None,
+        typer.Option(
+            "--distro",
+            metavar="humble|iron|jazzy|kilted",
+            help="ROS 2 release of the robot; else the profile's, else humble.",
         ),
     ] = None,
     json: Annotated[bool, typer.Option("--json", help="Print one JSON object a line instead of text.")] = False,
@@ -59,14 +67,16 @@ def sim_robot(
     from fieldhand.execution.interrupts import ctrl_c_as_request
 
     clock = ScaledClock(_checked_speed(speed))
+    release = _checked_release(distro)
     site_and_robot = open_site_and_robot(place.site, place.robot, lenient=place.lenient)
     simulated_world = mission.read_world(world, site_and_robot.site, site_and_robot.robot)
     bindings = transport.in_namespace(bindings_of(site_and_robot.robot))
+    bindings = replace(bindings, distro=release or bindings.distro)
     profile = replace(site_and_robot.robot, ros2=bindings)
     identity = Identity(site=site_and_robot.site.content_sha256, robot=profile.sha256, world=_hash_of(simulated_world))
     refuse_standard_output(state, "--state")
     saved = None if state is None else read_state(state, identity)
-    interfaces = Interfaces.of(bindings.distro, bindings.interfaces)
+    interfaces = Interfaces.of(bindings.release, bindings.interfaces)
     with closing(open_transport(transport.on, interfaces, transport.domain)) as node:
         sim_time = bindings.use_sim_time or speed != 1.0
         simulated = SimulatedRobot(
@@ -105,6 +115,22 @@ def _checked_speed(speed: float) -> float:
     return speed
 
 
+def _checked_release(distro: str | None) -> Distro | None:
+    from typing import get_args
+
+    from fieldhand.errors import InputError
+    from fieldhand.robot.bindings import Distro
+
+    found = next((name for name in get_args(Distro) if name == distro), None)
+    if distro is not None and found is None:
+        raise InputError(
+            f"there is no release '{distro[:40]}'",
+            where="--distro",
+            advice=f"choose one of {', '.join(get_args(Distro))}",
+        )
+    return found
+
+
 def _hash_of(world: World) -> str:
     return "" if world.data is None else hashlib.sha256(world.data).hexdigest()
 
@@ -120,6 +146,7 @@ def _print_ready(
             site=site,
             namespace=bindings.namespace or "/",
             navigation=bindings.whole_name(bindings.navigation.action),
+            distro=bindings.release,
             sim_time=sim_time,
             goes_on=goes_on,
         )
@@ -129,6 +156,7 @@ def _print_ready(
     _print(f"  drives by {bindings.whole_name(bindings.navigation.action)} ({bindings.navigation.type})")
     if sim_time:
         _print("  its time is on /clock: take it from there (use_sim_time)")
+    _print(f"  has the interfaces of ROS 2 {bindings.release}")
     _print("Ctrl-C ends it.")
 
 

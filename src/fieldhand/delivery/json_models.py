@@ -5,11 +5,12 @@ A sender ignores fields that it does not know, so that later agents may add some
 
 from __future__ import annotations
 
-from datetime import UTC, datetime
+from datetime import datetime
 from typing import Annotated
 
 from pydantic import AwareDatetime, BaseModel, ConfigDict, Field
 
+from fieldhand.compatibility import UTC
 from fieldhand.delivery.received_status import LoggedEvent, ReceivedState, ReceivedStatus
 from fieldhand.execution.operator_commands import AgentCommand
 from fieldhand.timetable.runs import DueRun

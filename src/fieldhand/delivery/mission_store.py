@@ -21,6 +21,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from fieldhand import missions
+from fieldhand.compatibility import datetime_from_iso
 from fieldhand.delivery.bundle_checks import Accept
 from fieldhand.delivery.incoming_file import IncomingFile, unwritable
 from fieldhand.delivery.received_missions import ReceivedMission, ReceivedMissions, RecordedRun
@@ -320,4 +321,4 @@ def _superseded(later: ReceivedMission) -> ExecutionError:
 
 def _seconds(bundle: Bundle) -> float:
     """Return the time of the approval in seconds since 1970, which can be compared across time zones."""
-    return datetime.fromisoformat(bundle.manifest.approved.at).timestamp()
+    return datetime_from_iso(bundle.manifest.approved.at).timestamp()

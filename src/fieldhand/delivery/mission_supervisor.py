@@ -10,10 +10,11 @@ import logging
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from datetime import UTC, datetime, tzinfo
+from datetime import datetime, tzinfo
 from typing import TYPE_CHECKING
 
 from fieldhand import missions
+from fieldhand.compatibility import UTC
 from fieldhand.delivery.mission_store import MissionStore
 from fieldhand.delivery.received_missions import ReceivedMission
 from fieldhand.delivery.received_status import LoggedEvent, ReceivedState, ReceivedStatus

@@ -6,8 +6,9 @@ import random
 from collections.abc import Callable
 from contextlib import closing
 from dataclasses import dataclass, replace
-from datetime import UTC, datetime
+from datetime import datetime
 
+from fieldhand.compatibility import UTC
 from fieldhand.delivery.bundle_checks import Sendable
 from fieldhand.delivery.outbox import Outbox, OutboxEntry
 from fieldhand.delivery.robot_client import RobotClient

@@ -12,14 +12,22 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from fieldhand.compatibility import (
+    SQLITE_BUSY,
+    SQLITE_CANTOPEN,
+    SQLITE_FULL,
+    SQLITE_IOERR,
+    SQLITE_LOCKED,
+    SQLITE_READONLY,
+    sqlite_code,
+)
 from fieldhand.errors import StoreError
-from fieldhand.files import sqlite_code
 from fieldhand.folders import FolderLock, FolderTaken
 
 #: Format of the database; other versions refuse it.
 FORMAT = 2
 #: Result codes of SQLite for a disk that is full, broken or write-protected.
-_UNWRITABLE = (sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR, sqlite3.SQLITE_READONLY, sqlite3.SQLITE_CANTOPEN)
+_UNWRITABLE = (SQLITE_FULL, SQLITE_IOERR, SQLITE_READONLY, SQLITE_CANTOPEN)
 
 _TABLES = (
     "CREATE TABLE about (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID",
@@ -286,7 +294,7 @@ class ReceivedMissions:
                 advice="check its permissions",
             ) from None
         except (sqlite3.Error, ValueError, FolderTaken) as error:
-            if isinstance(error, FolderTaken) or sqlite_code(error) in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED):
+            if isinstance(error, FolderTaken) or sqlite_code(error) in (SQLITE_BUSY, SQLITE_LOCKED):
                 raise StoreError(
                     "another agent has this store open",
                     where=str(self._path),

@@ -11,10 +11,11 @@ import logging
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass
-from datetime import UTC, datetime, tzinfo
+from datetime import datetime, tzinfo
 from itertools import islice
 from typing import TYPE_CHECKING
 
+from fieldhand.compatibility import UTC
 from fieldhand.delivery.mission_store import MissionStore
 from fieldhand.delivery.received_missions import ReceivedMission, RecordedRun
 from fieldhand.errors import ExecutionError, FieldhandError, NotApprovedError

@@ -9,6 +9,7 @@ from datetime import datetime, timedelta
 import numpy as np
 import shapely
 
+from fieldhand.compatibility import datetime_from_iso
 from fieldhand.site.earlier_missions import EarlierCapture, EarlierMission, EarlierOutcome, EarlierValue
 from fieldhand.site.model import Site
 from fieldhand.site.names import short
@@ -197,7 +198,7 @@ def _final(captures: Sequence[EarlierCapture]) -> Iterator[EarlierCapture]:
 def _instant(text: str) -> datetime | None:
     """Return the time of a log; None if it states none."""
     try:
-        found = datetime.fromisoformat(text)
+        found = datetime_from_iso(text)
     except ValueError:
         return None
     return found if found.tzinfo is not None else None

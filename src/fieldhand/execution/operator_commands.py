@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, cast, get_args
 
+from fieldhand.compatibility import SQLITE_BUSY, SQLITE_LOCKED, sqlite_code
 from fieldhand.errors import ExecutionError, InputError, JournalError
-from fieldhand.files import sqlite_code
 
 #: All commands. ``pause``: stand still. ``continue``: end the pause. ``return``: drive home now. ``abort``: stop here;
 #: the mission is over. ``end``: take the Task's exit for an abort (Ctrl-C, a terminated program).
@@ -126,7 +126,7 @@ class CommandFile:
                 return OperatorCommand(wanted="abort", reason="its orders cannot be read: their file was replaced")
             row = self._db.execute("SELECT n, said, reason FROM orders ORDER BY n DESC LIMIT 1").fetchone()
         except sqlite3.OperationalError as error:
-            if sqlite_code(error) in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED):
+            if sqlite_code(error) in (SQLITE_BUSY, SQLITE_LOCKED):
                 return self._before
             return OperatorCommand(wanted="abort", reason=f"its orders cannot be read: {error}")
         except (sqlite3.Error, OSError) as error:

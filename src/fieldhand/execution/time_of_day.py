@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from datetime import UTC, datetime
+from datetime import datetime
 
+from fieldhand.compatibility import UTC
 from fieldhand.execution.recorded_inputs import RecordedInputs
 
 #: Deviation in seconds from the mission clock between two events beyond which the wall clock was changed.

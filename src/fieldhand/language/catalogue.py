@@ -117,14 +117,16 @@ class Language:
     def _looked_up(self, text: Message) -> str | None:
         """Return the translation from the catalogue, or None."""
         context, own = text.context, self.translations
-        if text.many:
-            found = (
-                own.npgettext(context, text.template, text.many, text.number)
-                if context
-                else own.ngettext(text.template, text.many, text.number)
-            )
-        else:
+        found = _MISSING
+        if not text.many:
             found = own.pgettext(context, text.template) if context else own.gettext(text.template)
+        if found == _MISSING:  # gettext of Python 3.10 ignores entries that have a plural form
+            many = text.many or text.template
+            found = (
+                own.npgettext(context, text.template, many, text.number)
+                if context
+                else own.ngettext(text.template, many, text.number)
+            )
         return None if found == _MISSING else found
 
     def _known_again(self, text: Message) -> Message | None:

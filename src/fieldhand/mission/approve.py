@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Container
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import datetime
 from typing import TYPE_CHECKING
 
+from fieldhand.compatibility import UTC
 from fieldhand.mission.review_task import Review
 from fieldhand.robot.model import RobotProfile
 from fieldhand.short_repr import short_repr

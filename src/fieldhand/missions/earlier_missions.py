@@ -6,9 +6,10 @@ import hashlib
 import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from datetime import UTC, datetime, tzinfo
+from datetime import datetime, tzinfo
 from pathlib import Path
 
+from fieldhand.compatibility import UTC, datetime_from_iso
 from fieldhand.errors import FieldhandError, InputError
 from fieldhand.evaluation.earlier_work import LoggedWork, work_of
 from fieldhand.language import message
@@ -108,7 +109,7 @@ def earlier_missions(
             continue
         if work is not None:
             found.setdefault(work.key, work)
-    every = sorted(found.values(), key=lambda work: (datetime.fromisoformat(work.mission.begun), work.mission.id))
+    every = sorted(found.values(), key=lambda work: (datetime_from_iso(work.mission.begun), work.mission.id))
     here = [work for work in every if work.mission.captures or work.moved]
     counting = [work for work in here if simulated or not work.mission.simulated]
     return EarlierMissions(
@@ -175,7 +176,7 @@ def _journal(folder: Path) -> _Log:
     return _Log(
         name=folder.name,
         events=tuple(event for _, event in events),
-        times=tuple(datetime.fromisoformat(at) for at, _ in events),
+        times=tuple(datetime_from_iso(at) for at, _ in events),
     )
 
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 
+from fieldhand.compatibility import UTC
 from fieldhand.errors import JournalError
 from fieldhand.files import named_folder, state_folder
 from fieldhand.language import message, named

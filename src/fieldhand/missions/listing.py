@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from datetime import UTC, datetime, timedelta
+from datetime import datetime, timedelta
 from pathlib import Path
 
+from fieldhand.compatibility import UTC, datetime_from_iso
 from fieldhand.errors import FieldhandError, JournalError
 from fieldhand.folders import is_locked
 from fieldhand.missions.find_mission import all_missions, begun_at
@@ -97,7 +98,7 @@ def _entry(folder: Path) -> ListedMission:
         lines = read_summary(folder / JOURNAL)[1]
         events = [from_json(line) for _, line in lines if line.startswith(_TURNS)]
         task = decode(read_kept(folder, "task.xml", files["task.xml"]))
-        last = datetime.fromisoformat(lines[-1][0]) if lines else begun
+        last = datetime_from_iso(lines[-1][0]) if lines else begun
     except (FieldhandError, KeyError, TypeError, ValueError) as error:
         why = (
             str(error) if isinstance(error, FieldhandError) else f"its mission.json or journal cannot be read: {error}"

@@ -14,8 +14,9 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, ClassVar, Literal, Self
+from typing import TYPE_CHECKING, ClassVar, Literal
 
+from fieldhand.compatibility import Self
 from fieldhand.language import message
 from fieldhand.language.words import say_zone
 from fieldhand.places.count_range import ANY, ONE, CountRange, exactly

@@ -6,12 +6,13 @@ A word that spanish.toml lacks stays Spanish and is unknown to the check, which 
 from __future__ import annotations
 
 import re
-import tomllib
 import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from importlib.resources import files
 from typing import Any
+
+from fieldhand.compatibility import tomllib
 
 _DECIMAL_COMMA = re.compile(r"(?<=\d),(?=\d{1,2}(?!\d))")
 #: Endings of verbs, and pronouns joined to them.

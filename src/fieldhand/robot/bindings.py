@@ -318,7 +318,7 @@ class Ros2Bindings:
     """The ROS 2 interfaces of a robot.
 
     Attributes:
-        distro: ROS 2 release of the robot.
+        distro: ROS 2 release that the profile insists on; None for the one that the robot is heard to have.
         namespace: Prefix of every relative name: empty, or ``/`` and a name.
         navigation: Driving.
         position: Position source.
@@ -332,7 +332,7 @@ class Ros2Bindings:
         events: Bindings by event name; an event without one is unknown on this robot.
     """
 
-    distro: Distro
+    distro: Distro | None
     namespace: str
     navigation: NavigationBinding
     position: PositionBinding
@@ -346,6 +346,13 @@ class Ros2Bindings:
     events: Mapping[str, EventBinding] = field(default_factory=dict)
 
     __repr__ = short_repr
+
+    @property
+    def release(self) -> Distro:
+        """Return the profile's release; the oldest one that has its navigation where the profile has none."""
+        if self.distro is not None:
+            return self.distro
+        return "jazzy" if self.navigation.type.endswith("/FollowGPSWaypoints") else "humble"
 
     def whole_name(self, name: str) -> str:
         """Return the absolute name, which begins with ``/``, of a name in the robot's namespace."""

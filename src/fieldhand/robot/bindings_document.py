@@ -370,7 +370,7 @@ _WITH_ROUTES = ("jazzy", "kilted")
 class Ros2Document(Keyed):
     """The ``ros2`` part of a profile."""
 
-    distro: Distro
+    distro: Distro | None = None
     namespace: Annotated[str, AfterValidator(as_namespace)] = ""
     use_sim_time: bool = False
     navigation: NavigationDocument

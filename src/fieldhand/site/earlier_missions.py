@@ -13,6 +13,7 @@ from datetime import datetime
 from functools import cached_property
 from typing import Literal
 
+from fieldhand.compatibility import datetime_from_iso
 from fieldhand.errors import TaskError
 from fieldhand.hidden_characters import visible
 from fieldhand.language import message
@@ -59,7 +60,7 @@ class EarlierCapture:
     @cached_property
     def time(self) -> datetime:
         """Return the time, with time zone."""
-        return datetime.fromisoformat(self.at)
+        return datetime_from_iso(self.at)
 
     def value_of(self, quantity: str) -> EarlierValue | None:
         """Return the measured value of a quantity; None if it was not measured."""
@@ -115,7 +116,7 @@ class EarlierMissions:
     @cached_property
     def time(self) -> datetime:
         """Return the time at which it was drawn up, with time zone."""
-        return datetime.fromisoformat(self.as_of)
+        return datetime_from_iso(self.as_of)
 
     def captures(self) -> Iterator[tuple[EarlierMission, EarlierCapture]]:
         """Yield all work with its mission, mission by mission."""
@@ -131,7 +132,7 @@ def _require_time(text: str) -> None:
         TaskError: It is no time, or has no difference from UTC.
     """
     try:
-        zoned = datetime.fromisoformat(text).tzinfo is not None
+        zoned = datetime_from_iso(text).tzinfo is not None
     except ValueError:
         zoned = False
     if not zoned:

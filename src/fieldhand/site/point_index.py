@@ -17,6 +17,9 @@ Indices = NDArray[np.intp]
 #: second, as long as 30 million comparisons; but once it is imported, a tree is faster from a hundred points on.
 _FEW_PAIRS = 250_000
 
+#: Least limit in metres whose square is not 0.
+_LEAST_M = 1e-150
+
 
 class PointIndex:
     """Points in the plane, to be searched for the nearest ones and for pairs close to each other.
@@ -41,7 +44,8 @@ class PointIndex:
             within: If the nearest point is not closer than this, the distance returned is infinite and the index n.
         """
         if (tree := self._tree_for(len(to))) is not None:
-            away, which = tree.query(to, distance_upper_bound=within)
+            # The tree compares squares, which are 0 for the smallest limits.
+            away, which = tree.query(to, distance_upper_bound=max(within, _LEAST_M) if within > 0 else within)
             return np.asarray(away), np.asarray(which)
         if not len(self.points):
             return np.full(len(to), np.inf), np.zeros(len(to), dtype=np.intp)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from typing import Literal
 
 import numpy as np
 import pyproj
@@ -26,14 +27,13 @@ class Projection:
 
     def metres(self, lat: ArrayLike, lon: ArrayLike) -> NDArray[np.float64]:
         """Convert degrees to metres east and north, shape (n, 2)."""
-        x, y = self._transformer.transform(np.atleast_1d(lon), np.atleast_1d(lat))
-        return np.column_stack([x, y]).astype(np.float64)
+        return np.column_stack(self._transformed(np.atleast_1d(lon), np.atleast_1d(lat), "FORWARD"))
 
     def degrees(self, xy: ArrayLike) -> NDArray[np.float64]:
         """Convert metres east and north, shape (n, 2), to latitude and longitude, shape (n, 2)."""
         points = np.atleast_2d(np.asarray(xy, dtype=np.float64))
-        lon, lat = self._transformer.transform(points[:, 0], points[:, 1], direction="INVERSE")
-        return np.column_stack([lat, lon]).astype(np.float64)
+        lon, lat = self._transformed(points[:, 0], points[:, 1], "INVERSE")
+        return np.column_stack([lat, lon])
 
     def lat_lon(self, xy: ArrayLike) -> tuple[tuple[float, float], ...]:
         """Return points in metres east and north, shape (n, 2), as n pairs of latitude and longitude in degrees."""
@@ -42,6 +42,15 @@ class Projection:
     def positions(self, xy: ArrayLike, decimals: int = 15) -> list[list[float]]:
         """Return points in metres east and north, shape (n, 2), as GeoJSON positions; in full precision by default."""
         return [[round(lon, decimals), round(lat, decimals)] for lat, lon in self.degrees(xy).tolist()]
+
+    def _transformed(
+        self, x: ArrayLike, y: ArrayLike, direction: Literal["FORWARD", "INVERSE"]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        xs, ys = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
+        if xs.size == ys.size == 1:  # pyproj before 3.7.2 warns about arrays of one element
+            found = self._transformer.transform(xs.item(), ys.item(), direction=direction)
+            return np.array([found[0]]), np.array([found[1]])
+        return self._transformer.transform(xs, ys, direction=direction)
 
 
 #: WGS 84 in degrees. PROJ finds the same operation for ``EPSG:4326``, after a search of its database that takes 15 ms.

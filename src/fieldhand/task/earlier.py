@@ -6,9 +6,9 @@ import hashlib
 import re
 from collections.abc import Iterator
 from dataclasses import replace
-from datetime import datetime
 from typing import cast
 
+from fieldhand.compatibility import datetime_from_iso
 from fieldhand.errors import TaskError
 from fieldhand.language import message
 from fieldhand.places.earlier.from_records import FromRecords
@@ -77,9 +77,9 @@ def together(signed: EarlierMissions | None, own: EarlierMissions) -> EarlierMis
     """
     if signed is None:
         return own
-    known = {datetime.fromisoformat(mission.begun) for mission in own.missions}
-    others = [mission for mission in signed.missions if datetime.fromisoformat(mission.begun) not in known]
-    missions = sorted((*others, *own.missions), key=lambda mission: (datetime.fromisoformat(mission.begun), mission.id))
+    known = {datetime_from_iso(mission.begun) for mission in own.missions}
+    others = [mission for mission in signed.missions if datetime_from_iso(mission.begun) not in known]
+    missions = sorted((*others, *own.missions), key=lambda mission: (datetime_from_iso(mission.begun), mission.id))
     return replace(own, missions=tuple(missions))
 
 

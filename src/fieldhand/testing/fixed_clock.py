@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from datetime import UTC, datetime, timedelta
+from datetime import datetime, timedelta
+
+from fieldhand.compatibility import UTC
 
 __all__ = ["FixedClock"]
 

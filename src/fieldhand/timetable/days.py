@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from datetime import date, timedelta
 
+from fieldhand.compatibility import date_from_iso
 from fieldhand.errors import TaskError
 from fieldhand.language import message
 from fieldhand.task.timing import WEEKDAYS
@@ -34,7 +35,7 @@ def day_of(words: str, approved: date) -> date:
             return approved + timedelta(days=int(words[1:]))
         yearly = _YEARLY.fullmatch(words)
         if yearly is None:
-            return date.fromisoformat(words)
+            return date_from_iso(words)
         month, day = (int(part) for part in yearly.groups())
         return next(_dates(approved, month, day))
     except (OverflowError, ValueError, StopIteration):

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from datetime import UTC, date, datetime, timedelta, tzinfo
+from datetime import date, datetime, timedelta, tzinfo
 
+from fieldhand.compatibility import UTC
 from fieldhand.errors import TaskError
 from fieldhand.language import message
 from fieldhand.task.timing import WEEKDAYS, DayTime, Schedule, StartTime

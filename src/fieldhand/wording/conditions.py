@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import assert_never
 
+from fieldhand.compatibility import assert_never
 from fieldhand.language import joined, labelled, message, named
 from fieldhand.language.words import listed, say_action, say_name, say_number, say_quantity, say_times
 from fieldhand.places.filters.attribute_words import say_of_tree, say_with_article

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from datetime import datetime
-
+from fieldhand.compatibility import datetime_from_iso
 from fieldhand.errors import PlaceError
 from fieldhand.language import Number, counted, message
 from fieldhand.language.words import capitalised
@@ -66,7 +65,7 @@ def say_known(records: EarlierMissions) -> str:
 
 def say_local(at: str) -> str:
     """Return a local time of the site: "2026-11-27 06:30"."""
-    return Number(f"{datetime.fromisoformat(at):%Y-%m-%d %H:%M}")
+    return Number(f"{datetime_from_iso(at):%Y-%m-%d %H:%M}")
 
 
 def _say_count(task: Task, site: Site) -> list[str]:

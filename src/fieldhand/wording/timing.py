@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from datetime import date
 
+from fieldhand.compatibility import date_from_iso
 from fieldhand.language import Number, counted, message
 from fieldhand.language.words import listed, say_duration, say_number
 from fieldhand.task.timing import ANY_TIME_MIN, DayTime, Schedule, StartTime, Weekday
@@ -78,7 +78,7 @@ def _date(words: str) -> str:
     """Return a date; one without a year as month and day."""
     yearly = words.removeprefix("--")
     try:
-        date.fromisoformat(words if yearly == words else f"2000-{yearly}")
+        date_from_iso(words if yearly == words else f"2000-{yearly}")
     except ValueError:
         return words
     return Number(yearly)

@@ -5,11 +5,12 @@ from __future__ import annotations
 import itertools
 import math
 from dataclasses import replace
-from datetime import UTC, datetime, timedelta
+from datetime import datetime, timedelta
 
 import pytest
 
 from fieldhand import finished_missions
+from fieldhand.compatibility import UTC
 from fieldhand.errors import InputError, OutputError, ProfileError, TaskError
 from fieldhand.evaluation.calibration import history
 from fieldhand.evaluation.calibration.calibrate import calibrate

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from datetime import UTC, datetime
+from datetime import datetime
 
 import pytest
 from hypothesis import given, settings
@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from shapely.geometry import box
 
 from fieldhand import mission
+from fieldhand.compatibility import UTC
 from fieldhand.errors import ModelError, NotApprovedError
 from fieldhand.hidden_characters import visible
 from fieldhand.planning.llm.prompt import LONGEST_LINE, MOST_DATA, opening, repair

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 
 import pytest
 
+from fieldhand.compatibility import UTC
 from fieldhand.errors import InputError, OutputError
 from fieldhand.planning.llm.chat import ChatMessage, Reply
 from fieldhand.planning.llm.transcript import TranscriptWriter, read_transcript

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import datetime
 from typing import Any
 
 from fieldhand import mission
 from fieldhand.approval.authorize import EveryWarning
+from fieldhand.compatibility import UTC
 from fieldhand.execution.drivers.simulation.world import World
 from fieldhand.execution.drivers.simulation.world_file import parse_world
 from fieldhand.planning.english.planner import EnglishPlanner

@@ -7,7 +7,7 @@ import json
 import zipfile
 from collections.abc import Mapping
 from dataclasses import replace
-from datetime import UTC, datetime
+from datetime import datetime
 from functools import cache
 from typing import Any
 
@@ -22,6 +22,7 @@ from fieldhand.approval.checks import examine
 from fieldhand.approval.keys.public import PublicKey
 from fieldhand.approval.keys.signing import SigningKey
 from fieldhand.approval.keys.trust import KnownKey
+from fieldhand.compatibility import UTC
 from fieldhand.places.selectors import TreeIs
 from fieldhand.robot.loader import parse_profile, profile_bytes
 from fieldhand.site.formats.files import SiteFiles

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import hashlib
 import ipaddress
-from datetime import UTC, datetime, timedelta
+from datetime import datetime, timedelta
 from pathlib import Path
 
 from cryptography import x509
 from cryptography.hazmat.primitives import hashes, serialization
 from cryptography.hazmat.primitives.asymmetric import ec
 from cryptography.x509.oid import NameOID
+
+from fieldhand.compatibility import UTC
 
 
 def certificate(folder: Path, name: str) -> tuple[Path, Path, str]:

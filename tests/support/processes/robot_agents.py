@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import AsyncIterator, Callable
 from dataclasses import dataclass, field
-from datetime import UTC, datetime, tzinfo
+from datetime import datetime, tzinfo
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -19,6 +19,7 @@ from fieldhand.agent.routes import RobotIdentity
 from fieldhand.agent.token_gate import WrongTokenLimits
 from fieldhand.agent.uploads import UploadLimits
 from fieldhand.approval.keys.trust import TrustStore
+from fieldhand.compatibility import UTC
 from fieldhand.delivery.bundle_checks import acceptance, sha256_of
 from fieldhand.delivery.mission_store import MissionStore
 from fieldhand.delivery.mission_supervisor import Carry, MissionSupervisor

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from datetime import UTC, datetime, timedelta
+from datetime import datetime, timedelta
 from itertools import islice
 from pathlib import Path
 from typing import Literal
 
 from fieldhand import mission
 from fieldhand.approval.authorize import EveryWarning
+from fieldhand.compatibility import UTC
 from fieldhand.errors import ModelError, NotApprovedError
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.llm.chat import Chat, ChatMessage, Reply

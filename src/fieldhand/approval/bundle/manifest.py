@@ -10,6 +10,7 @@ from typing import Annotated, Any, NoReturn
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from fieldhand.approval.bundle.container import MANIFEST
+from fieldhand.compatibility import datetime_from_iso
 from fieldhand.errors import BundleError
 from fieldhand.hidden_characters import find_hidden, json_text
 
@@ -35,7 +36,7 @@ def _one_line(text: str) -> str:
 
 
 def _moment(text: str) -> str:
-    moment = datetime.fromisoformat(text)
+    moment = datetime_from_iso(text)
     if moment.tzinfo is None:
         raise ValueError("has no time zone")
     if not 2000 <= moment.year <= 2999:  # the first and the last year have no time in some zones
@@ -136,13 +137,13 @@ class Manifest(_FilePart):
     @property
     def approved_at(self) -> datetime:
         """Return the time of approval."""
-        return datetime.fromisoformat(self.approved.at)
+        return datetime_from_iso(self.approved.at)
 
     @property
     def until(self) -> datetime:
         """Return the latest time at which the mission may start."""
         until = self.approved.until
-        return self.approved_at + LONGEST_VALID if until is None else datetime.fromisoformat(until)
+        return self.approved_at + LONGEST_VALID if until is None else datetime_from_iso(until)
 
     @property
     def number(self) -> int:

@@ -13,6 +13,7 @@ from fieldhand.approval.bundle.manifest import Manifest, parse_manifest
 from fieldhand.approval.bundle.members import site_files_of
 from fieldhand.approval.bundle.signature import Signature, require_signature
 from fieldhand.approval.keys.trust import KnownKey
+from fieldhand.compatibility import datetime_from_iso
 from fieldhand.errors import BundleError, NotTrustedError
 from fieldhand.language import message
 from fieldhand.robot.capabilities import capabilities_of
@@ -236,7 +237,7 @@ def _require_files(manifest: Manifest, sealed: Sealed) -> None:
 
 def _require_past(manifest: Manifest, now: datetime, source: str) -> None:
     """Refuse an approval date in the future: one of the clocks is wrong, and so would be every time in the log."""
-    if datetime.fromisoformat(manifest.approved.at) > now + FUTURE_ALLOWED:
+    if datetime_from_iso(manifest.approved.at) > now + FUTURE_ALLOWED:
         raise BundleError(
             message(
                 "was approved at {at}, but the clock of this machine shows {now}",

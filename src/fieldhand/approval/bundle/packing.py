@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from datetime import datetime, timedelta
+from datetime import timedelta
 
 from pydantic import ValidationError
 
@@ -22,6 +22,7 @@ from fieldhand.approval.bundle.members import site_members
 from fieldhand.approval.bundle.opening import content_of, unseal
 from fieldhand.approval.bundle.signature import sign_manifest
 from fieldhand.approval.keys.signing import SigningKey
+from fieldhand.compatibility import datetime_from_iso
 from fieldhand.errors import BundleError
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.formats.files import SiteFiles
@@ -60,7 +61,7 @@ def pack(
         BundleError: The files differ from the approved ones, cannot be read back identically, or are too large.
     """
     authorization = authorized.authorization
-    at = datetime.fromisoformat(authorization.at)
+    at = datetime_from_iso(authorization.at)
     members = {TASK: encode(authorized.task), ROBOT: profile, **site_members(files)}
     try:
         manifest = Manifest(

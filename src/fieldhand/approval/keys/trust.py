@@ -6,7 +6,7 @@ import base64
 import dataclasses
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 from typing import Annotated, Literal, Protocol
 
@@ -15,6 +15,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationErr
 from fieldhand.approval.keys.names import clean_name, look_alike
 from fieldhand.approval.keys.public import KEY_BYTES, PublicKey, parse_fingerprint, require_sound
 from fieldhand.approval.keys.rights import make_folder, read_guarded, replace, require_own_folder
+from fieldhand.compatibility import UTC, datetime_from_iso
 from fieldhand.errors import KeyFileError
 from fieldhand.language import message
 
@@ -24,7 +25,7 @@ KeyState = Literal["trusted", "revoked", "unknown"]
 
 
 def _moment(text: str) -> str:
-    if datetime.fromisoformat(text).tzinfo is None:
+    if datetime_from_iso(text).tzinfo is None:
         raise ValueError("has no time zone")
     return text
 
@@ -145,7 +146,7 @@ class TrustStore:
                 where=str(self.folder),
                 advice="restore the later one, or check the keys and run fieldhand keys confirm",
             )
-        if listed.until is not None and self._memory.time(self._clock()) > datetime.fromisoformat(listed.until):
+        if listed.until is not None and self._memory.time(self._clock()) > datetime_from_iso(listed.until):
             raise KeyFileError(
                 f"the list of trusted keys expired at {listed.until}",
                 where=str(self.folder),

@@ -19,13 +19,13 @@ import base64
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from datetime import datetime
 from pathlib import Path
 from types import TracebackType
 from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
 
+from fieldhand.compatibility import datetime_from_iso
 from fieldhand.errors import OutputError
 from fieldhand.exchange.broken_off import driven_part
 from fieldhand.exchange.incidents import known, position_of
@@ -311,7 +311,7 @@ class McapLog:
 def _seconds_of(moment: str) -> float | None:
     """Return an ISO 8601 time in seconds since 1970, or None if it is invalid, as logs may be untrusted."""
     try:
-        return datetime.fromisoformat(moment).timestamp()
+        return datetime_from_iso(moment).timestamp()
     except (ValueError, OverflowError, OSError):
         return None
 

@@ -12,10 +12,11 @@ from collections import deque
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, closing, contextmanager, suppress
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 from types import TracebackType
 
+from fieldhand.compatibility import UTC
 from fieldhand.errors import JournalError
 from fieldhand.execution.event_log import EventLog
 from fieldhand.execution.journal.hash_chain import ChainHead, extended, require_chain, start

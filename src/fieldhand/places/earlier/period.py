@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from datetime import date, datetime, timedelta
 from typing import Literal
 
+from fieldhand.compatibility import date_from_iso
 from fieldhand.errors import PlaceError
 from fieldhand.language import message
 from fieldhand.site.names import short
@@ -174,7 +175,7 @@ def _day(text: str, today: date, first: date | None = None) -> date:
         return day if first is None or day >= first else _latest_weekday(text, first + 6 * _DAY)
     try:
         if not text.startswith("--"):
-            return date.fromisoformat(text)
+            return date_from_iso(text)
         years = range(today.year, today.year - 9, -1)
         if first is not None:
             return next(d for d in _yearly(text, range(first.year, first.year + 9)) if d >= first)

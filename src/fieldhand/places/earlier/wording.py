@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from datetime import date
 from typing import TYPE_CHECKING
 
+from fieldhand.compatibility import date_from_iso
 from fieldhand.language import Number, counted, message, named
 from fieldhand.language.words import say_action, say_name, say_quantity
 from fieldhand.places.sources.trees import Trees
@@ -74,7 +74,7 @@ def _day(text: str) -> str:
         return _DAYS[text]
     yearly = text.removeprefix("--")
     try:
-        date.fromisoformat(f"2024-{yearly}" if text.startswith("--") else text)
+        date_from_iso(f"2024-{yearly}" if text.startswith("--") else text)
     except ValueError:
         return message("“{day}”", day=named(text, "day"))
     return Number(yearly)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 import re
-from datetime import date
 
+from fieldhand.compatibility import date_from_iso
 from fieldhand.terms import Value
 
 _DATE = re.compile(r"\d{4}-\d{2}-\d{2}")
@@ -16,7 +16,7 @@ def day_number(value: Value) -> float:
     if not isinstance(value, str) or _DATE.fullmatch(value.strip()) is None:
         return math.nan
     try:
-        return float(date.fromisoformat(value.strip()).toordinal())
+        return float(date_from_iso(value.strip()).toordinal())
     except ValueError:
         return math.nan
 

@@ -7,13 +7,13 @@ looked for once a request is refused, and say what its unknown words ask for.
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from importlib.resources import files
 from typing import Literal
 
+from fieldhand.compatibility import tomllib
 from fieldhand.language import message
 from fieldhand.planning.english.lexicon import Lexicon
 from fieldhand.planning.english.naming import Phrase, split

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -12,6 +11,7 @@ from importlib.resources import files
 from itertools import product
 from typing import Any
 
+from fieldhand.compatibility import tomllib
 from fieldhand.planning.english.inflection import forms_of, plural_of
 from fieldhand.planning.english.lexicon import Lexicon, lexicon_for
 from fieldhand.planning.english.naming import NameEntry, Naming, Phrase, split, takes_pictures

@@ -7,13 +7,13 @@ chart, and so are the words of responses, which are looked for only where there 
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 from typing import Any
 
+from fieldhand.compatibility import tomllib
 from fieldhand.planning.english.inflection import forms_of, plural_of
 from fieldhand.planning.english.tokens import Word, ranges_of
 from fieldhand.robot.events import MonitoredEvent

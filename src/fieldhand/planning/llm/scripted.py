@@ -19,8 +19,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
+from fieldhand.compatibility import Self
 from fieldhand.planning.llm.settings import LlmSettings, Provider
 
 

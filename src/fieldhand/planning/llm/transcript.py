@@ -10,10 +10,11 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
+from fieldhand.compatibility import UTC
 from fieldhand.errors import InputError, OutputError
 from fieldhand.hidden_characters import json_text
 from fieldhand.planning.llm.chat import ChatMessage, Reply

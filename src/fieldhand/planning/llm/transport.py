@@ -105,6 +105,7 @@ def build_model(settings: LlmSettings) -> Model[Any]:
 
 
 async def _request(settings: LlmSettings, messages: Sequence[ChatMessage]) -> ModelResponse:
+    import anyio
     from pydantic_ai.direct import model_request
     from pydantic_ai.settings import ModelSettings
 
@@ -112,8 +113,9 @@ async def _request(settings: LlmSettings, messages: Sequence[ChatMessage]) -> Mo
     if settings.max_tokens is not None:
         wanted["max_tokens"] = settings.max_tokens
     # The client's own timeout restarts with every byte, so a slowly trickling endpoint would never reach it.
-    async with build_model(settings) as model, asyncio.timeout(settings.timeout_s):
-        return await model_request(model, _as_messages(messages), model_settings=wanted)
+    async with build_model(settings) as model:
+        with anyio.fail_after(settings.timeout_s):
+            return await model_request(model, _as_messages(messages), model_settings=wanted)
 
 
 def _as_messages(messages: Sequence[ChatMessage]) -> list[ModelMessage]:

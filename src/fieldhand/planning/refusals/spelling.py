@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from functools import cache
 from importlib.resources import files
 
+from fieldhand.compatibility import tomllib
 from fieldhand.planning.english.lexicon import Lexicon
 from fieldhand.planning.english.vocabulary import glue
 

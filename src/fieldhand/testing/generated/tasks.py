@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, field, fields, replace
-from datetime import UTC, datetime, timedelta, timezone
+from datetime import datetime, timedelta, timezone
 from functools import cached_property, reduce
 from operator import or_
 from types import NoneType, UnionType
@@ -16,6 +16,7 @@ from typing import Any, Literal, Union, get_args, get_origin
 
 from hypothesis import strategies as st
 
+from fieldhand.compatibility import UTC
 from fieldhand.hidden_characters import find_hidden
 from fieldhand.places.selector import Selector
 from fieldhand.places.selectors import SELECTORS

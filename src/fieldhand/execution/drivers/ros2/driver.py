@@ -15,9 +15,9 @@ import math
 import time
 import uuid
 from collections.abc import Callable, Collection, Mapping
-from typing import Self
 
 from fieldhand.clock import Clock
+from fieldhand.compatibility import Self
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Position, Progress
 from fieldhand.execution.drivers.ros2.action_outcome import GoalEnd

@@ -153,7 +153,7 @@ def _other_definition(theirs: list[str], ours: str, shown: str) -> EndpointProbl
     if all(type_hash and type_hash != ours for type_hash in theirs):
         return EndpointProblem(
             what=f"the robot has another definition of {shown} than is known here",
-            advice="set the robot's distro in the profile, or give its definition under ros2: interfaces",
+            advice="leave distro out of the profile or set the robot's, or give its definition under ros2: interfaces",
         )
     return None
 

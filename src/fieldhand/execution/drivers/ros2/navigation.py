@@ -106,7 +106,7 @@ class NavigationClient:
         steady: Callable[[], float],
         new_id: Callable[[], bytes],
     ) -> None:
-        self.binding, self.distro = bindings.navigation, bindings.distro
+        self.binding, self.distro = bindings.navigation, bindings.release
         self.position, self.stamp_s, self.clock, self.steady = position, stamp_s, clock, steady
         self.speed_m_s = speed_m_s
         self.client = ActionClient(

@@ -28,10 +28,12 @@ from fieldhand.execution.drivers.ros2.message_fields import message_of
 from fieldhand.execution.drivers.ros2.navigation import FROM_LL, SPEED_LIMIT
 from fieldhand.execution.drivers.ros2.node_states import GET_STATE
 from fieldhand.execution.drivers.ros2.plausibility import MessageCheck
+from fieldhand.execution.drivers.ros2.release import heard_releases
 from fieldhand.execution.drivers.ros2.telemetry import fix_problem
 from fieldhand.execution.drivers.ros2.transport import IMAGE_TYPES, QosProfile, Rmw, RosMessage, Transport
 from fieldhand.robot.bindings import (
     CallBinding,
+    Distro,
     EventBinding,
     RequestValue,
     Ros2Bindings,
@@ -53,14 +55,32 @@ _Paths = Sequence[tuple[str, tuple[str, ...]]]
 
 @dataclass(frozen=True, kw_only=True)
 class ProfileReport:
-    """Results for all endpoints of a profile."""
+    """Results for all endpoints of a profile.
+
+    Attributes:
+        insisted: Release that the profile insists on.
+        heard: Releases whose definitions the robot announces; None if its navigation was not heard.
+    """
 
     endpoints: tuple[EndpointReport, ...]
+    insisted: Distro | None = None
+    heard: tuple[Distro, ...] | None = None
 
     @property
     def rmw(self) -> tuple[Rmw, ...]:
         """Middlewares of the robot, by the endpoints that were discovered."""
         return tuple(sorted({rmw for endpoint in self.endpoints for rmw in endpoint.rmw}))
+
+    @property
+    def other_release(self) -> tuple[str, str] | None:
+        """Description of a robot that has another release than the profile insists on, and advice; else None."""
+        if self.heard is None or self.insisted is None or self.insisted in self.heard:
+            return None
+        heard = " or ".join(self.heard) or "one that is not known here"
+        return (
+            f"the profile insists on ROS 2 {self.insisted}, and the robot has {heard}",
+            f"leave distro out of the profile{f', or set it to {self.heard[0]}' if self.heard else ''}",
+        )
 
     @property
     def missing(self) -> tuple[EndpointReport, ...]:
@@ -130,7 +150,8 @@ def check_live(
         ProfileError: The profile has no ROS 2 part.
     """
     tried = [_unfit(b) or b.make(transport) for b in _Bindings(profile, interfaces).all()]
-    nodes = _node_checks(bindings_of(profile), transport, interfaces)
+    bindings = bindings_of(profile)
+    nodes = _node_checks(bindings, transport, interfaces)
     checks = [*(t for t in tried if not isinstance(t, EndpointReport)), *nodes]
     begun = steady()
     while steady() < begun + within_s:
@@ -139,7 +160,12 @@ def check_live(
             break
         sleep(_LOOK_S)
     reports = [t if isinstance(t, EndpointReport) else t.report() for t in tried]
-    return ProfileReport(endpoints=(*reports, *(check.report() for check in nodes if check.found)))
+    heard = heard_releases(transport, bindings)
+    return ProfileReport(
+        endpoints=(*reports, *(check.report() for check in nodes if check.found)),
+        insisted=bindings.distro,
+        heard=None if heard is None else tuple(heard),
+    )
 
 
 def _node_checks(ros2: Ros2Bindings, transport: Transport, interfaces: Interfaces) -> list[LifecycleCheck]:

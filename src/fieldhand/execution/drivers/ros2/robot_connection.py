@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import replace
 
 from fieldhand.clock import Clock, ScaledClock, SystemWallClock
@@ -13,6 +14,7 @@ from fieldhand.execution.drivers.ros2 import ros_clock
 from fieldhand.execution.drivers.ros2.driver import READY_WITHIN_S, Ros2Driver
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.open_transport import open_transport
+from fieldhand.execution.drivers.ros2.release import sourced_release, wait_for_release
 from fieldhand.execution.drivers.ros2.ros_clock import RosClock
 from fieldhand.execution.drivers.ros2.transport import Transport
 from fieldhand.execution.vehicle import Connection, Vehicle
@@ -24,6 +26,9 @@ from fieldhand.task.frames import Task
 from fieldhand.task.plan import acts
 from fieldhand.task.recharging import recharges
 from fieldhand.task.watches import watched_events
+
+#: Least time in seconds for a robot to become ready after its release was heard, or was not.
+_LEAST_S = 3.0
 
 
 def effective_bindings(robot: RobotProfile, by: Connection) -> Ros2Bindings:
@@ -42,6 +47,28 @@ def effective_bindings(robot: RobotProfile, by: Connection) -> Ros2Bindings:
     return replace(robot.ros2, namespace=namespace, use_sim_time=robot.ros2.use_sim_time or by.sim_time)
 
 
+def with_release(bindings: Ros2Bindings, on: str, domain: int | None, within_s: float) -> Ros2Bindings:
+    """Return the bindings with the robot's release: the profile's, else the one that is sourced for rclpy, else the one
+    that is heard. They are unchanged if no navigation is heard.
+
+    Args:
+        on: Name of the transport.
+        domain: ROS domain id; None for that of the environment.
+        within_s: Seconds to wait for the robot.
+
+    Raises:
+        InputError: A required package is not installed.
+        Ros2Error: The network cannot be used, or the robot has no known release.
+    """
+    if bindings.distro is not None:
+        return bindings
+    if on == "rclpy" and (sourced := sourced_release()) is not None:
+        return replace(bindings, distro=sourced)
+    with closing(open_transport(on, Interfaces({}), domain)) as node:
+        heard = wait_for_release(node, bindings, within_s=within_s, steady=time.monotonic, sleep=time.sleep)
+    return replace(bindings, distro=heard)
+
+
 def open_node(by: Connection, bindings: Ros2Bindings) -> tuple[Transport, Interfaces]:
     """Open a node in the robot's graph and load its types.
 
@@ -50,7 +77,7 @@ def open_node(by: Connection, bindings: Ros2Bindings) -> tuple[Transport, Interf
         ProfileError: An interface definition of the profile cannot be parsed.
         Ros2Error: The network cannot be used.
     """
-    interfaces = Interfaces.of(bindings.distro, bindings.interfaces)
+    interfaces = Interfaces.of(bindings.release, bindings.interfaces)
     return open_transport(by.transport, interfaces, by.domain), interfaces
 
 
@@ -72,7 +99,9 @@ def connected_robot(
         InputError: A required package is not installed.
         Ros2Error: The robot does not respond, or not as its profile says; every problem is named.
     """
-    bindings = effective_bindings(robot, by)
+    begun_s = time.monotonic()
+    bindings = with_release(effective_bindings(robot, by), by.transport, by.domain, within_s)
+    within_s = max(within_s - (time.monotonic() - begun_s), min(within_s, _LEAST_S))
     transport, interfaces = open_node(by, bindings)
     driver: Ros2Driver | None = None
     try:

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
-from typing import Self
 
+from fieldhand.compatibility import Self
 from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.ros2.transport import QosProfile, Transport
 from fieldhand.language import message

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from datetime import UTC, datetime
+from datetime import datetime
 
 import numpy as np
 
 from fieldhand.clock import Clock, ScaledClock, SimulatedClock, SimulatedWallClock, WallClock
+from fieldhand.compatibility import UTC
 from fieldhand.errors import OutputError
 from fieldhand.execution.drivers.simulation.driver import SimulatedDriver
 from fieldhand.execution.drivers.simulation.world import ClockJumps, DiskFull, World

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 from typing import Any
 
+from fieldhand.compatibility import tomllib
 from fieldhand.places.earlier.period import Period
 from fieldhand.planning.english.tokens import Word
 

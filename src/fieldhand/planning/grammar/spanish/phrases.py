@@ -79,7 +79,8 @@ class SpanishPhrases:
                 for noun in map(split, nouns):
                     found[plural_of(noun)].append(replace(entry, plural=True))
                     for article in ("la", "una", "otra", "esa", "esta"):
-                        found[article, *noun].append(entry)
+                        phrase = (article, *noun)
+                        found[phrase].append(entry)
         for english, verbs in words["verbs"].items():
             if (entry := self._meant(english, "ACTV")) is not None:
                 for verb in verbs:
@@ -93,7 +94,8 @@ class SpanishPhrases:
                             found[form].append(NameEntry(kind=kind, value=entry.value, plural=plural))
         for name, known in self.lexicon.own.items():
             if known.kind == "ZONE":
-                found["zona", *name].append(known)
+                zone = ("zona", *name)
+                found[zone].append(known)
         return {phrase: tuple(dict.fromkeys(entries)) for phrase, entries in found.items()}
 
     def _meant(self, english: str, kind: str) -> NameEntry | None:

@@ -6,6 +6,7 @@ from calendar import monthrange
 from dataclasses import replace
 from datetime import date
 
+from fieldhand.compatibility import date_from_iso
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.times.meaning import ROUGHLY_MIN, TimePart
 from fieldhand.planning.grammar.times.windows import DAYLIGHT, WINDOWS
@@ -393,7 +394,7 @@ def day_of_a_year(day: str, year: Lex) -> str | None:
     if not day.startswith("--"):
         return None
     try:
-        return date.fromisoformat(f"{year.value}-{day[2:]}").isoformat()
+        return date_from_iso(f"{year.value}-{day[2:]}").isoformat()
     except ValueError:
         return None
 

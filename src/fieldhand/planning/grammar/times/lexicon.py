@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from importlib.resources import files
 from typing import Any
 
+from fieldhand.compatibility import tomllib
 from fieldhand.planning.english.numbers import spelt_numbers
 from fieldhand.planning.english.tokens import Word
 from fieldhand.planning.english.vocabulary import vocabulary

@@ -127,7 +127,8 @@ class DdsTransport:
             raise Ros2Error(f"{name[2:]} cannot be made as {message}: it is there with another type") from error
 
     def _user_data(self, message: str, user_data: dict[str, str]) -> UserData:
-        return UserData(values=user_data | {"typehash": self.interfaces.type_hash(message)})
+        announced = {"typehash": self.interfaces.type_hash(message)} if self.interfaces.announced else {}
+        return UserData(values=user_data | announced)
 
 
 @cache

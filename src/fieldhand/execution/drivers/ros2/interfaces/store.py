@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from functools import cache
 from importlib.resources import files
-from importlib.resources.abc import Traversable
 
+from fieldhand.compatibility import Traversable
 from fieldhand.errors import ProfileError, Ros2Error
 from fieldhand.execution.drivers.ros2.interfaces import validation
 from fieldhand.execution.drivers.ros2.interfaces.definitions import (
@@ -35,10 +35,12 @@ class Interfaces:
 
     Args:
         definitions: Definitions by name, including all nested ones.
+        announced: True if endpoints announce the hashes of their types, as from Iron on.
     """
 
-    def __init__(self, definitions: Mapping[str, Definition]) -> None:
+    def __init__(self, definitions: Mapping[str, Definition], *, announced: bool = True) -> None:
         self._definitions = definitions
+        self.announced = announced
         self._hashes: dict[str, str] = {}
 
     @classmethod
@@ -56,7 +58,7 @@ class Interfaces:
         brought: dict[str, Definition] = {}
         for name, text in (own or {}).items():
             brought.update((each.name, each) for each in read_definitions(name, text, where="ros2: interfaces"))
-        store = cls({**_of_release(distro), **brought})
+        store = cls({**_of_release(distro), **brought}, announced=distro != "humble")
         for each in brought.values():
             store._refuse_unknown(each, distro)
         counted: dict[str, int] = {}
@@ -72,6 +74,10 @@ class Interfaces:
     def knows(self, name: str) -> bool:
         """Return True if a message, a service, an action, or a service of an action is known."""
         return any(f"{name}{ending}" in self._definitions for ending in ("", "_Request", "_Goal"))
+
+    def has(self, message: str) -> bool:
+        """Return True if a message is known."""
+        return message in self._definitions
 
     def definition(self, message: str) -> Definition:
         """Return the definition of a message.

@@ -46,7 +46,7 @@ def _not_sourced(error: ImportError) -> InputError:
     if distro:
         return InputError(
             f"ROS 2 {distro} is sourced, but its rclpy cannot be loaded by Python {python} ({error})",
-            advice="run this with the Python that this ROS was built for (from 3.11 on), or reach the robot by dds",
+            advice="run this with the Python that this ROS was built for (from 3.10 on), or reach the robot by dds",
         )
     return InputError(
         "no ROS 2 is sourced here: rclpy was not found",
