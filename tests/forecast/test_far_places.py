@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cache
 from typing import Any
 
 import numpy as np
@@ -21,17 +20,11 @@ from fieldhand.site.model import Site
 from fieldhand.task.frames import Budget
 from fieldhand.task.plan import Act, ForEach, InOrder, Recharge
 from fieldhand.task.results import Acted, ChargeBegun
-from support.missions.rechargeable import CHARGING, task_of
+from support.missions.rechargeable import rechargeable, task_of
 from support.missions.rig import of_type
 
 PICTURE = Act(action="take_thermal_picture")
 FAR = ForEach(select=Rows(first="6", last="8"), body=PICTURE)
-
-
-@cache
-def husky(capacity_j: float = 150_000, **charging: float) -> RobotProfile:
-    energy = {"capacity_j": capacity_j, "charging": {**CHARGING, **charging}}
-    return RobotProfile.load("husky", changes={"energy": energy, "leg_cost": {"alpha": 0.5}})
 
 
 def reviewed(robot: RobotProfile, plan: Any = FAR, **constraints: Any) -> mission.Review:
@@ -58,7 +51,7 @@ PERCENTS = st.floats(0.0, 300.0)
 def test_an_open_target_rises_for_far_places_up_to_the_highest(
     rest: float, charge: float, there: float, everything: float
 ) -> None:
-    rules = rules_of(husky(most_percent=97))
+    rules = rules_of(rechargeable(most_percent=97))
     far = rules.far(there, everything)
     target = float(rules.target(rest, charge, far))
     assert min(97.0, charge) <= target <= 97.0
@@ -68,13 +61,13 @@ def test_an_open_target_rises_for_far_places_up_to_the_highest(
 
 @given(PERCENTS, st.floats(10.0, 95.0), PERCENTS)
 def test_the_target_of_a_task_is_kept(rest: float, charge: float, far: float) -> None:
-    assert float(rules_of(husky(), recharge_until_percent=80.0).target(rest, charge, far)) == 80.0
+    assert float(rules_of(rechargeable(), recharge_until_percent=80.0).target(rest, charge, far)) == 80.0
 
 
 @given(st.floats(1.0, 400.0), st.floats(1.0, 400.0), st.floats(0.0, 30.0), st.booleans())
 def test_a_charged_battery_suffices_to_leave_for_the_visit(there: float, back: float, work: float, open_: bool) -> None:
     # Otherwise one charge would follow another.
-    rules = rules_of(husky(), **({} if open_ else {"recharge_until_percent": 90.0}))
+    rules = rules_of(rechargeable(), **({} if open_ else {"recharge_until_percent": 90.0}))
     sums = [there**n + back**n for n in (1, 2, 3)]
     if float(rules.needed(sums, work, charged=True)) > rules.most_percent:
         return
@@ -83,7 +76,7 @@ def test_a_charged_battery_suffices_to_leave_for_the_visit(there: float, back: f
 
 
 def test_charging_further_lowers_the_probability_and_saves_charges() -> None:
-    further, usual = reviewed(husky()), reviewed(husky(most_percent=90))
+    further, usual = reviewed(rechargeable()), reviewed(rechargeable(most_percent=90))
     assert stranding(further) < 0.4 * stranding(usual)
     assert further.estimate is not None
     assert usual.estimate is not None
@@ -97,14 +90,14 @@ def test_charging_further_lowers_the_probability_and_saves_charges() -> None:
 
 
 def test_the_robot_charges_as_far_as_the_forecast() -> None:
-    approved = mission.authorize(reviewed(husky()), by="tests", confirmed=EveryWarning())
+    approved = mission.authorize(reviewed(rechargeable()), by="tests", confirmed=EveryWarning())
     begun = [e for seed in range(3) for e in of_type(mission.simulate(approved, seed=seed).events, ChargeBegun)]
     assert max(e.until_percent for e in begun) == pytest.approx(100.0)
 
 
 def test_near_places_are_charged_for_as_usual() -> None:
     near = ForEach(select=Rows(first="1", last="2"), body=Act(action="take_thermal_picture", count=40))
-    review = reviewed(husky(600_000), near)
+    review = reviewed(rechargeable(600_000), near)
     approved = mission.authorize(review, by="tests", confirmed=EveryWarning())
     begun = of_type(mission.simulate(approved, seed=0).events, ChargeBegun)
     assert begun
@@ -114,25 +107,25 @@ def test_near_places_are_charged_for_as_usual() -> None:
 
 
 def test_a_mission_likely_to_be_stranded_is_refused_unless_the_profile_accepts_it() -> None:
-    refused = reviewed(husky(), recharge_until_percent=80.0)
+    refused = reviewed(rechargeable(), recharge_until_percent=80.0)
     (error,) = refused.errors
     assert "would be stopped by its battery" in error.what
     assert "charged to 80 %" in error.what
     assert stranding(refused) > 0.001
-    accepts = reviewed(husky(stranding_probability=0.05), recharge_until_percent=80.0)
+    accepts = reviewed(rechargeable(stranding_probability=0.05), recharge_until_percent=80.0)
     assert not accepts.errors
     assert stranding(accepts) == pytest.approx(stranding(refused))
 
 
 def test_a_plan_that_says_when_to_charge_is_only_warned() -> None:
     plan = InOrder(steps=(FAR, Recharge()))
-    review = reviewed(husky(300_000, stranding_probability=1e-12), plan, recharge=False)
+    review = reviewed(rechargeable(300_000, stranding_probability=1e-12), plan, recharge=False)
     assert not review.errors
     assert any("would be stopped by its battery" in warning for warning in review.warnings)
 
 
 def test_the_probability_is_exact_for_one_way_and_counts_a_stopped_mission_once() -> None:
-    robot = husky()
+    robot = rechargeable()
     rules, task = rules_of(robot), task_of(PICTURE, Site.demo(), robot, recharge=True)
     missions = ChargingMissions(rules, task, 3, 60.0)
     missions.drive(np.array([0.0, 20.0 / rules.per_metre, 55.0 / rules.per_metre]))
@@ -147,7 +140,7 @@ def test_the_probability_is_exact_for_one_way_and_counts_a_stopped_mission_once(
 def test_optional_places_too_far_are_left_out_by_forecast_and_robot() -> None:
     budgets = (Budget(kind="duration_s", limit=4000.0),)
     plan = ForEach(select=Rows(first="4", last="8"), body=PICTURE, optional=True)
-    review = reviewed(husky(120_000), plan, budgets=budgets)
+    review = reviewed(rechargeable(120_000), plan, budgets=budgets)
     assert review.estimate is not None
     (list_,) = (s for s in review.estimate.worst.walk.steps if s.visit_forecast is not None)
     assert list_.visit_forecast is not None
@@ -162,4 +155,4 @@ def test_optional_places_too_far_are_left_out_by_forecast_and_robot() -> None:
 
 def test_a_highest_target_below_the_usual_one_is_refused() -> None:
     with pytest.raises(FieldhandError, match="most_percent 85 is below until_percent 90"):
-        husky(most_percent=85)
+        rechargeable(most_percent=85)
