@@ -318,14 +318,14 @@ def _given_up_after(before: Said, when: LinkedCommand, way: DriveCommand) -> Sai
     """
     *clauses, last = before.clauses
     goes = isinstance(last.command, DriveCommand) and last.command.place.shape == "one"
+    final: tuple[LinkedCommand, ...] = ()
     if goes and isinstance(last.command, DriveCommand) and clauses:
         same = last.command.place.selector == way.place.selector
-        if not same or not isinstance(clauses[-1].command, CaptureCommand) or last.command.along:
+        if not same or last.command.along:
             return None
-        joined = last.before or Connective(False, True, 0)
-        final = (LinkedCommand(replace(joined, full=True), last.command),)
+        final = (LinkedCommand(replace(last.before or Connective(False, True, 0), full=True), last.command),)
     else:
-        clauses, final = list(before.clauses), ()
+        clauses = list(before.clauses)
     if not all(_has_place(clause.command) for clause in clauses) or isinstance(clauses[0].command, Lead):
         return None
     ends = LinkedCommand(Connective(False, False, 0, both=True), StopCommand(0, stays=True))
