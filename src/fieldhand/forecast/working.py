@@ -267,7 +267,7 @@ def _perimeter(
         from_edge_m=from_edge_m,
         outside=outside,
         mounted="both" if implement is None else implement.side,
-        side=None if node.sides in ("one", "both") else node.sides,
+        side=None if node.sides == "one" or node.sides == "both" else node.sides,
     )
     return _headed(units, node, site)
 

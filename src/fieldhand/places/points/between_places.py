@@ -97,7 +97,7 @@ def _distances(selector: StraightLine, length: float) -> Floats:
     if apart and np.isfinite(apart) and apart > 0 and not count and length / apart < MOST_POINTS:
         return np.arange(int(length / apart + 1e-6) + 1) * apart
     if not apart and 1 <= count <= MOST_POINTS:
-        return np.linspace(0.0, length, count) if count > 1 else np.array([length / 2.0])
+        return np.asarray(np.linspace(0.0, length, count) if count > 1 else [length / 2.0], dtype=np.float64)
     if apart and count:
         raise PlaceError(
             message("points on a line have a number or a distance, not both"), advice=message("leave one of them out")

@@ -118,7 +118,8 @@ def _beside_edge(site: Site, xy: Floats, selector: Transect) -> Floats:
     free = nearest_free(site, xy)
     moved = np.hypot(*(free - xy).T)
     near = moved <= selector.apart_m / 2.0 if selector.apart_m else np.ones(len(xy), dtype=bool)
-    return free[near]
+    stands: Floats = free[near]
+    return stands
 
 
 def _edge(site: Site, selector: Transect) -> list[LineString]:
