@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from fieldhand.robot.loader import load_robot
@@ -171,3 +173,16 @@ def test_a_robot_that_only_waits_for_a_time_somewhere_is_refused() -> None:
     require_refusal(
         PASTURE, HUSKY, "Drive to the middle gate, wait there until 14:30 and come back.", "cannot wait for a time"
     )
+
+
+def test_both_gates_of_three_are_refused_with_their_names() -> None:
+    both = "read CO2 at both gates"
+    require_plan(PASTURE, HUSKY, both, "for UnionOf(GateIs(middle gate)+GateIs(farm gate)): [co2]")
+    third = replace(PASTURE.gates[0], place=replace(PASTURE.gates[0].place, id="forest gate"))
+    site = replace(PASTURE, gates=(*PASTURE.gates, third))
+    require_refusal(site, HUSKY, both, "not two of them, but 3: middle gate, farm gate and forest gate")
+
+
+def test_captures_on_a_drive_around_ground_are_asked_about_or_along_its_edge() -> None:
+    require_plan(PASTURE, HUSKY, "drive around the pond and read CO2 every 10 m", "for Transect(10, edge, pond): [co2]")
+    require_question(PASTURE, HUSKY, "drive around the bank and read CO2 every 10 m", 2)

@@ -109,6 +109,17 @@ def unsaid_spacing() -> Impossible:
     )
 
 
+@construction("word=EACH noun=GATES", "word=EACH [OF] DET noun=GATES")
+def both_of_several_gates(word: Lex, noun: Lex) -> Impossible | None:
+    """Compose "both gates" of three."""
+    if "two" not in word.features or len(noun.value) == 2:
+        return None
+    return Impossible(
+        message("there are not two of them, but {count}: {gates}", count=len(noun.value), gates=listed(noun.value)),
+        message("name those that are meant"),
+    )
+
+
 @construction("BETWEEN low=NUM AND high=NUM", "BETWEEN low=NUM AND high=amount", "BETWEEN low=amount AND high=amount")
 def nothing_between(low: Lex | Amount, high: Lex | Amount) -> Impossible | None:
     """Compose "between 40 and 30"."""

@@ -35,6 +35,8 @@ _DESCRIBING = frozenset(
         "WHICH", "WITH",
     }
 )  # fmt: skip
+#: Categories of words that name a place.
+_PLACES = PLACE_WORDS | {"GATES", "PLOT"}
 #: Categories of words with which no phrase ends, and of one that may stand alone.
 _OPEN, _ALONE = _DESCRIBING - {"AGAIN"} | {"DET", "EACH"}, frozenset({"AGAIN"})
 
@@ -99,7 +101,7 @@ class OptionalWords:
         for start, end in sorted(((s, e) for s in starts for e in ends), key=lambda one: one[1] - one[0]):
             alone = end == start + 1
             whole = alone if self._is_adverb(start) else not alone and not self.kinds[end - 1] & _OPEN
-            demands = any(self._demands(k) or self.kinds[k] & PLACE_WORDS for k in range(start, end))
+            demands = any(self._demands(k) or self.kinds[k] & _PLACES for k in range(start, end))
             if whole and not demands and not any(self.kinds[k] & _COMMANDS for k in range(start + 1, end)):
                 joined = self.words[start - 1].kind == "comma" and start > 1
                 yield range(start - 1 if joined else start, end)

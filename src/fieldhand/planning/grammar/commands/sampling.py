@@ -127,6 +127,15 @@ def round_at_pace(
     return Said((LinkedCommand(None, replace(made, used=used & ~how.used)), LinkedCommand(None, how)))
 
 
+@construction("said: along=path_over [COMMA] [AND] act=capture", cost=0.1, given=("site",))
+def on_the_way_round(along: SamplingWay, act: CaptureCommand, used: int, site: Site) -> Said | None:
+    """Compose "drive round the paddock and take a picture every 5 m", on the way."""
+    if act.spacing is None or act.place is not None:
+        return None
+    made = _along(act, _Route(*along, site))
+    return None if made is None else Said((LinkedCommand(None, replace(made, used=used)),))
+
+
 @construction("adjunct: ONPATH", "adjunct: ONTHEWAY", cost=0.2)
 def on_path() -> Adjunct:
     """Compose "on it" behind the samples of a path."""

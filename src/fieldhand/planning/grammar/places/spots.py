@@ -222,13 +222,17 @@ def gate(gate: Lex) -> PlaceMeaning:
 
 
 @construction(
-    "place: EACH noun=GATES", "place: EACH DET noun=GATES", "place: EACH OF DET noun=GATES", "place: [DET] gates=GATES",
-    "place: [DET] n=count noun=GATES", "place: EACH n=count noun=GATES", "place: EACH [OF] DET n=count noun=GATES",
+    "place: word=EACH noun=GATES", "place: word=EACH DET noun=GATES", "place: word=EACH OF DET noun=GATES",
+    "place: [DET] gates=GATES", "place: [DET] n=count noun=GATES", "place: word=EACH n=count noun=GATES",
+    "place: word=EACH [OF] DET n=count noun=GATES",
     cost=0.2,
 )  # fmt: skip
-def every_gate(noun: Lex | None = None, gates: Lex | None = None, n: int | None = None) -> PlaceMeaning | None:
-    """Compose "every gate", "the gates" and "the two gates"."""
+def every_gate(
+    noun: Lex | None = None, gates: Lex | None = None, word: Lex | None = None, n: int | None = None
+) -> PlaceMeaning | None:
+    """Compose "every gate", "the gates" and "the two gates"; "both gates" of three are not."""
     named = gates or noun
+    n = 2 if word is not None and "two" in word.features else n
     if named is None or (gates is not None and not gates.plural) or n not in (None, len(named.value)):
         return None
     parts = tuple(s.GateIs(gate=name) for name in named.value)
