@@ -48,7 +48,7 @@ COUNTED_IN_ONE_OF_THEM = [
 
 COUNTED_IN_THEIR_ROW = [
     (GARDEN, "Take a picture of the third radish.", "picture @ InRow(3, 3, of Where(crop, eq, radish, of Rows(3, 3)))"),
-    (GARDEN, "Photograph the third potato of bed 2.", "picture @ InRow(3, 3, of Where(crop, eq, potato, of Rows(2, 2)))"),
+    (GARDEN, "Photograph the 3rd potato of bed 2.", "picture @ InRow(3, 3, of Where(crop, eq, potato, of Rows(2, 2)))"),
     (GARDEN, "Take a picture of radish 3.", "picture @ InRow(3, 3, of Where(crop, eq, radish, of Rows(3, 3)))"),
 ]  # fmt: skip
 
