@@ -49,6 +49,8 @@ _BESIDE_THEM = re.compile(
     r"|\bplants? (?:\w+ )?(?:next to|beside) (?:it|them|each)\b|\bneighbou?rs? of each\b"
     r"|\band (?:\w+ ){0,3}the (?:nearest|closest) \w+"
     r"|\b(?:trees?|vines?|ones?) (?:next to|beside|alongside) (?:it|them|each)\b"
+    r"|\b(?:next to|beside|alongside|neighbou?rs? of|sides? of)"
+    r" (?:the (?:\w+ ){0,2}\w+s|those|every|any|all|\w+s with)\b"
 )
 #: Pattern of a half that is named by a place near it, or by words that no map explains.
 _SOME_HALF = re.compile(
@@ -440,8 +442,9 @@ def _attributes(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[Pl
         held |= _values_in_row(name, site, shared=True)
     for tree in {tree for _, tree in plan.trees if tree in site.by_id}:
         held |= {_name_text(str(value)) for value in site.by_id[tree].properties.values()}
+    by_neighbours = bool(plan.trees and _BESIDE_THEM.search(facts.text))  # "the trees next to the yellow ones", by id
     for word in facts.attributes:
-        if not any(word in other or other in word for other in held):
+        if not by_neighbours and not any(word in other or other in word for other in held):
             yield PlanMismatch(
                 kind="attribute",
                 what=message("the request says '{word}', but the plan does not ask for that", word=word),

@@ -138,7 +138,11 @@ def request_facts(request: str, robot: RobotProfile, site: Site) -> RequestFacts
     taken = covered | {k + j for word, k in attributes.items() for j in range(len(word.split()))}
     nouns = {k: n for k, n in _nouns(tokens, robot, site).items() if k not in taken}
     units = frozenset(q.unit.lower() for q in robot.quantities)
-    found = amounts(tokens, nouns, units)
+    ids = _ids_with_dashes(tokens, site)
+    found = tuple(
+        replace(one, kind="name", compared="") if one.kind == "plain" and one.index in ids else one
+        for one in amounts(tokens, nouns, units)
+    )
     levels = {word for q in robot.quantities for word in q.levels}
     facts = RequestFacts(
         request=request,
@@ -171,6 +175,12 @@ def _names(site: Site) -> set[str]:
     rows = [r.name for b in site.planting.blocks for r in b.rows]
     named = {_norm(name) for name in (*(z.name for z in site.zones if z.name), *blocks, *rows)}
     return {name for name in named if not name.isdecimal() and len(name) > 1}
+
+
+def _ids_with_dashes(tokens: Sequence[Token], site: Site) -> set[int]:
+    """Return the tokens of ids such as "4-12", whose numbers count and compare nothing."""
+    ids = {_norm(tree.place.id) for tree in site.trees if "-" in tree.place.id}
+    return {k + j for name, k in _phrases(tokens, ids) for j in range(len(name.split()))}
 
 
 def _kinds(site: Site) -> set[str]:

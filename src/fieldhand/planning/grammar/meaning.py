@@ -47,6 +47,8 @@ UNSAID_THING = "?"
 UNKNOWN_THINGS = frozenset({LAST_THING, LAST_THINGS, UNSAID_THING})
 #: Value of a parameter that is the one it had before ("at the same depth").
 SAME_VALUE = "="
+#: Value of a parameter of which only is said that it is little or much ("not too much").
+OPEN_VALUE = "?"
 #: Rows that were named before ("these rows"), until the dialogue knows which.
 THOSE_ROWS = s.Rows(first="those rows", last="the last of those rows")
 #: Zone that was spoken of before ("mow it"), until the dialogue knows which.

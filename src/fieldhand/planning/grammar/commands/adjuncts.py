@@ -6,11 +6,13 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from fieldhand.places import selectors as s
+from fieldhand.planning.english.naming import split
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Adjunct, Clause, once
 from fieldhand.planning.grammar.meaning import LAST_THING, UNSAID_THING, CaptureCommand, Nominal, PlaceMeaning, Thing
 from fieldhand.planning.grammar.places.counted import row_of_all
 from fieldhand.planning.grammar.places.groups import of_each_kind
+from fieldhand.planning.grammar.places.nouns import Comparison, tests_of, that_pass
 from fieldhand.planning.grammar.places.sampling import bare_points
 from fieldhand.planning.grammar.places.vague import as_many_of_best
 from fieldhand.planning.grammar.words import Lex
@@ -24,6 +26,7 @@ from fieldhand.planning.selections import (
     is_one_row,
     over,
 )
+from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -267,6 +270,64 @@ def on_the_way() -> Adjunct:
     return Adjunct(_unchanged, of_place=True)
 
 
+@construction("adjunct: [AGAIN] WHERE MAPSAYS by=comparison", cost=0.1, given=("site", "robot"))
+def where_map_says(by: Comparison, site: Site, robot: RobotProfile) -> Adjunct:
+    """Compose "wherever the map says less than 22", of the property of plants that is named like what is read."""
+    return Adjunct(_where_recorded, _Recorded(by, site, robot), may_lead=True)
+
+
+@dataclass(frozen=True, slots=True)
+class _Recorded:
+    """A comparison with what a site records of what a robot reads."""
+
+    by: Comparison
+    site: Site = field(compare=False)
+    robot: RobotProfile = field(compare=False)
+
+
+def _where_recorded(command: CaptureCommand, told: _Recorded) -> list[CaptureCommand] | None:
+    """Return captures where the property of plants that is named like their quantity passes a comparison."""
+    if told.by[3] or len(command.things) != 1 or command.things[0].action not in told.robot.action:
+        return None
+    place = command.place
+    if place is not None and (
+        place.count is not None or place.per is not None or place.shape not in ("several", "area")
+    ):
+        return None
+    words = {word for name in told.robot.action[command.things[0].action].measures for word in split(name)}
+    recorded = [one for one, values in told.site.attributes.items() if not any(isinstance(x, str) for x in values)]
+    names = [one for one in recorded if words & {*split(one.replace("_", " "))}]
+    of = s.Trees() if place is None else place.selector
+    found = [PlaceMeaning(that_pass(test, of), "several") for test in tests_of(names, told.by)]
+    return [replace(command, place=one) for one in found] or None
+
+
+def _each_another(command: CaptureCommand, _: None) -> CaptureCommand | None:
+    """Return captures each of which is taken at another plant than the others."""
+    place, n = command.place, _only_count(command)
+    if place is None or place.per is not None or place.optional or place.refers_back:
+        return None
+    if n is None:
+        return command if place.shape == "several" and as_quota(place.selector) is not None else None
+    if place.count == n:
+        return _counted(command, 1)
+    if place.count is not None or place.shape not in ("several", "area") or not chooses_from_trees(place.selector):
+        return None
+    some = PlaceMeaning(s.Take(count=n, of=place.selector), "several", count=n)
+    return replace(_counted(command, 1), place=some)
+
+
+@construction(
+    "adjunct: [EACH] [ONE] FROM DET OTHER TREE", "adjunct: [EACH] [ONE] AT DET OTHER TREE",
+    "adjunct: [EACH] [ONE] FROM ANOTHER TREE", "adjunct: [EACH] [ONE] AT ANOTHER TREE",
+    "adjunct: [EACH] [ONE] OF DET OTHER TREE", "adjunct: [EACH] FROM OTHER TREE", "adjunct: EACH AT OTHER TREE",
+    cost=0.1,
+)  # fmt: skip
+def each_another() -> Adjunct:
+    """Compose "each from a different plant"."""
+    return Adjunct(_each_another, late=True)
+
+
 def _unchanged(command: CaptureCommand, _: None) -> CaptureCommand:
     return command
 
@@ -368,7 +429,9 @@ def _one_per_tree(command: CaptureCommand, things: tuple[Thing, ...]) -> Capture
     return replace(command, place=replace(command.place, shape="several", each=command.place.each))
 
 
-@construction("adjunct: PER kind=ATTR", "adjunct: FOR kinds=each_kind", cost=0.2, given=("site",))
+@construction(
+    "adjunct: PER kind=ATTR", "adjunct: FOR kinds=each_kind", "adjunct: OF kinds=each_kind", cost=0.2, given=("site",)
+)
 def per_kind(site: Site, kind: Lex | None = None, kinds: tuple[Lex, int] | None = None) -> Adjunct | None:
     """Compose "per variety" and "for each variety"."""
     of = kinds if kind is None else (kind, 0)

@@ -71,6 +71,12 @@ def both_kept_out(first: Excluded, second: Excluded) -> Excluded | None:
     return Excluded(PlaceMeaning(parts, "area" if one.shape == other.shape == "area" else "several"))
 
 
+@construction("kept_out: out=kept_out ITSELF", cost=0.1)
+def themselves_kept_out(out: Excluded) -> Excluded:
+    """Compose "the sick ones themselves" of "not the sick ones themselves"."""
+    return out
+
+
 @construction("kept_out: in_ where=region", cost=0.2)
 def area_kept_out(where: s.Selector) -> Excluded:
     """Compose "in the wet corner" of "..., except in the wet corner"."""
@@ -122,6 +128,8 @@ def any_there_kept_out(where: s.Selector, word: Lex | None = None) -> Excluded |
     "excluded: LEAVE out=kept_out ALONE",
     "excluded: out=kept_out LEFTOUT",
     "excluded: word=NOT out=kept_out",
+    "excluded: word=NOT OF out=kept_out",
+    "excluded: word=NOT AT out=kept_out",
     "excluded: THOUGH word=NOT out=kept_out",
     "excluded: word=NOT out=kept_out [COMMA] THOUGH",
     "excluded: WITHOUT verb=ACTV out=kept_out",

@@ -10,6 +10,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import (
     DEFAULT_VALUE,
     LAST_THING,
+    OPEN_VALUE,
     SAME_VALUE,
     UNSAID_THING,
     Amount,
@@ -27,6 +28,7 @@ from fieldhand.planning.grammar.meaning import (
     VisitLimit,
     WayRule,
     When,
+    WorkCommand,
 )
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.robot.model import Parameter, RobotProfile
@@ -35,7 +37,7 @@ GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
 #: Values that are no choices of a parameter.
-_NO_CHOICES = (SAME_VALUE, DEFAULT_VALUE)
+_NO_CHOICES = (SAME_VALUE, DEFAULT_VALUE, OPEN_VALUE)
 #: Commands without captures inside them.
 _PLAIN = (
     CaptureCommand | DriveCommand | Home | InAnOrder | Lead | LimitClause | StopCommand | VisitLimit | WayRule | When
@@ -104,6 +106,14 @@ def pushed(amount: Amount, name: Lex | None = None) -> ParameterValue | None:
     """Compose "push the probe down to 25 cm"."""
     names = () if name is None else tuple(name.value)
     return ParameterValue(amount.number, amount.unit, names) if amount.unit == "metres" else None
+
+
+@construction("parameter: [BUT] ROUGHAMOUNT", "parameter: [BUT] depth=ROUGHDEPTH", cost=0.3, given=("robot",))
+def open_amount(robot: RobotProfile, depth: Lex | None = None) -> ParameterValue | None:
+    """Compose "not too much" and "less than usual", which give no number; the dialogue asks for it."""
+    numbers = {one.name for action in robot.actions for one in action.parameters if one.kind == "number"}
+    names = tuple(sorted(name for name in numbers if ("depth" in name) == (depth is not None)))
+    return ParameterValue(OPEN_VALUE, "", names) if names else None
 
 
 @construction("parameter: how=setting", cost=0.1)
@@ -240,6 +250,14 @@ def capture_with(
         return None
     things = tuple(one if new is None else new for one, new in zip(said.things, made, strict=True))
     return replace(said, things=things, used=used)
+
+
+@construction("work: one=work [COMMA] [BUT] ROUGHAMOUNT", "work: ROUGHAMOUNT one=work", cost=0.3, given=("robot",))
+def work_so_much(one: WorkCommand, used: int, robot: RobotProfile) -> WorkCommand | None:
+    """Compose "spray row 3, but not too much"."""
+    how = open_amount(robot)
+    made = None if how is None else with_parameter(Thing(one.action, parameters=one.parameters), how, robot)
+    return None if made is None else replace(one, parameters=made.parameters, used=used)
 
 
 @construction(
@@ -443,9 +461,9 @@ def with_parameter(thing: Thing, value: ParameterValue, robot: RobotProfile) -> 
 def _fitting(parameters: tuple[Parameter, ...], value: ParameterValue) -> Iterator[tuple[str, str | float]]:
     """Yield the name and the value of each parameter that a value fits."""
     for one in parameters:
-        if value.value == SAME_VALUE:
+        if value.value in (SAME_VALUE, OPEN_VALUE):
             if one.name in value.names:
-                yield one.name, SAME_VALUE
+                yield one.name, value.value
         elif isinstance(value.value, str):
             if value.value in one.choices and one.name in value.names:
                 yield one.name, value.value

@@ -198,6 +198,24 @@ def on_one_side(side: TreeSide) -> Adjunct:
     return Adjunct(_on_own_side, side, of_place=True)
 
 
+@construction("adjunct: TAKENSO FROM side=own_side", "adjunct: TAKENSO FROM [DET] dir=DIR", cost=0.1, given=("site",))
+def taken_from_side(site: Site, side: TreeSide | None = None, dir: Lex | None = None) -> Adjunct | None:  # noqa: A002
+    """Compose "taken from the south side", at which the robot stands at each plant."""
+    where = side or (dir.value if dir is not None and dir.value in SIDES else None)
+    return None if where is None else Adjunct(_taken_from, _RowSide(where, site), of_place=True)
+
+
+def _taken_from(command: CaptureCommand, on: _RowSide) -> CaptureCommand | None:
+    """Return captures on a side of plants of rows that run across it, or of a single plant."""
+    place = command.place
+    if place is None or (place.shape == "area" and not are_rows(place.selector)):
+        return None
+    if place.shape == "one":
+        return _on_own_side(command, on.side)
+    ways = _run_east_west(place.selector, on.site)
+    return _on_side(command, on.side) if ways == {on.side in ("north", "south")} else None
+
+
 @construction("adjunct: FROM [DET] side=DIR", cost=0.3)
 def from_a_direction(side: Lex) -> Adjunct | None:
     """Compose "from the east", of a single tree."""

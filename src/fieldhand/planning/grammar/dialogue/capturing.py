@@ -26,6 +26,7 @@ from fieldhand.planning.grammar.dialogue.fitting import (
     within_area,
 )
 from fieldhand.planning.grammar.dialogue.likewise import single_places
+from fieldhand.planning.grammar.dialogue.open_amounts import require_amounts
 from fieldhand.planning.grammar.dialogue.plans import (
     EMPTY,
     as_choice,
@@ -116,6 +117,8 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
     state, command = _with_unsaid_again(setting, state, command)
     state, things = named_things(setting, state, command)
     things = meant_things(setting, state, things)
+    for thing in things:
+        require_amounts(setting, thing.action, thing.parameters, command.used)
     place, state, before = _place_of(setting, state, command)
     before = (*begun, *before)
     tokens = 0 if command.place is None else command.place.tokens & command.used

@@ -7,6 +7,7 @@ from dataclasses import replace
 from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.commands.laps import goes_around, is_thin
+from fieldhand.planning.grammar.dialogue.open_amounts import require_amounts
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, Spans, with_step
 from fieldhand.planning.grammar.dialogue.that_ground import ground_spoken_of
 from fieldhand.planning.grammar.meaning import DriveCommand, WorkCommand
@@ -55,6 +56,7 @@ def work_along(setting: Setting, state: DialogueState, command: WorkCommand) -> 
         mode = "perimeter"
     if command.edge_side:
         _require_side(setting, command, along, mode)
+    require_amounts(setting, command.action, command.parameters, command.used)
     node = p.WorkAlong(
         action=command.action,
         parameters=command.parameters,

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Literal
+
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
-from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.places.flags import is_so, such
+from fieldhand.planning.grammar.places.nouns import attribute_is, that_pass
+from fieldhand.planning.grammar.places.numbered import all_of, ids_of
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.site.model import Site
 
@@ -74,6 +79,74 @@ def with_those_beside(whole: PlaceMeaning, site: Site) -> PlaceMeaning | None:
     beside = [name for name in _next_in_row(plants, site) if name not in plants]
     parts = tuple(s.TreeIs(tree=name) for name in beside)
     return PlaceMeaning(s.UnionOf(parts=(*whole.selector.members, *parts)), "several") if parts else None
+
+
+@construction("such_group: [DET] flag=FLAG ONE", "such_group: [DET] value=ATTRVAL ONE", cost=0.1)
+def such_group(flag: Lex | None = None, value: Lex | None = None) -> list[s.Selector]:
+    """Compose "the sick ones" behind "beside"."""
+    tests = is_so(flag) if flag is not None else [] if value is None else attribute_is(value)
+    return [that_pass(test, s.Trees()) for test in tests]
+
+
+@construction("beside_group: NEXTTO", "beside_group: BESIDE", "beside_group: EACHSIDE OF", cost=0.0)
+def beside_group() -> str:
+    """Compose "next to" and "on either side of"."""
+    return "beside"
+
+
+@construction(
+    "place: [DET] inner=nominal [which_is] [DIRECTLY] beside_group of=place",
+    "place: [DET] inner=nominal [which_is] [DIRECTLY] beside_group group=such_group",
+    "place: [DET] [flag=FLAG] noun=NEIGHBOUR OF of=place",
+    cost=0.4, given=("site",),
+)  # fmt: skip
+def beside_each_of_them(
+    site: Site,
+    of: PlaceMeaning | None = None,
+    group: s.Selector | None = None,
+    inner: Nominal | None = None,
+    noun: Lex | None = None,
+    flag: Lex | None = None,
+) -> list[PlaceMeaning] | None:
+    """Compose "the plants next to the ones with mildew": with those of them that stand side by side, or without?"""
+    if group is not None:
+        of = PlaceMeaning(group, "several")
+    if (
+        of is None
+        or of.shape != "several"
+        or of.per is not None
+        or of.optional
+        or of.at_most is not None
+        or of.refers_back
+    ):
+        return None
+    if inner is None:
+        all_plants = Nominal(s.Trees(), plural=noun is not None and "plural" in noun.features)
+        such_plants = [all_plants] if flag is None else such(flag, all_plants) or []
+        return [way for one in such_plants for way in beside_each_of_them(site, of, inner=one) or ()] or None
+    if not inner.plural or inner.single or inner.complete or inner.kind != "tree":
+        return None
+    plants, fitting = ids_of(of.selector, site), ids_of(inner.selector, site)
+    if not plants or not fitting or not 1 < len(plants) <= _MOST or not plants <= set(site.by_id):
+        return None
+    beside = [name for name in _next_in_row(plants, site) if name in fitting]
+    if all(one.named_tree for one in of.selector.members):
+        return [_each_side(of.selector)] if len(beside) == 2 * len(plants) and not plants & set(beside) else None
+    others = [name for name in beside if name not in plants]
+    return [_these(names) for names in dict.fromkeys((tuple(others), tuple(beside)))] if others else None
+
+
+def _each_side(trees: s.Selector) -> PlaceMeaning:
+    """Return the next plant of its row to each side of each of some plants."""
+    ways: tuple[Literal["down", "up"], ...] = ("down", "up")
+    sides = tuple(s.AlongRow(trees=1, towards=to, origin=tree) for tree in trees.members for to in ways)
+    return PlaceMeaning(s.UnionOf(parts=sides), "several", count=len(sides))
+
+
+def _these(names: Sequence[str]) -> PlaceMeaning:
+    """Return plants by their ids."""
+    parts = [s.TreeIs(tree=name) for name in names]
+    return PlaceMeaning(all_of(parts), "several" if len(parts) > 1 else "one")
 
 
 @construction(

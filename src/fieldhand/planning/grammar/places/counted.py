@@ -16,6 +16,8 @@ from fieldhand.terms import CountedFrom
 #: Numbers of the first and the last of several trees of a row, negative from its end; (0, n) for the n in the middle.
 Span = tuple[int, int]
 
+#: Maximum number of rows of a crop of which it is asked in which a plant is counted.
+_MOST_ROWS = 6
 BOTH_ENDS: tuple[Span, ...] = ((1, 1), (-1, -1))
 
 
@@ -81,12 +83,16 @@ def rows_within(selector: s.Selector) -> s.Selector | None:
 
 def row_of_all(inner: Nominal, site: Site) -> s.Selector | None:
     """Return the one row in which all trees of a description stand; None for trees of several rows, or of any."""
+    there = _rows_of_all(inner, site)
+    return row_itself(there[0], site) if len(there) == 1 else None
+
+
+def _rows_of_all(inner: Nominal, site: Site) -> list[Row]:
+    """Return the rows in which the trees of a description stand; none for those of no row, or of any."""
     if not is_description(inner.selector):
-        return None
+        return []
     there = {int(site.planting.row_of[site.by_id[tree].index]) for tree in ids_of(inner.selector, site) or ()}
-    if len(there) != 1 or -1 in there:
-        return None
-    return row_itself(site.planting.rows[there.pop()], site)
+    return [] if -1 in there else [site.planting.rows[row] for row in sorted(there)]
 
 
 def fills_rows(inner: Nominal, site: Site) -> bool:
@@ -106,11 +112,14 @@ def row_itself(row: Row, site: Site) -> s.Rows:
 def trees_counted(inner: Nominal, at: Positions, site: Site) -> list[PlaceMeaning] | None:
     """Return the trees at some positions of the rows of a description."""
     of, rows = inner.selector, rows_within(inner.selector)
-    if rows is None:  # "the third Sungold", where all of them stand in one row
-        rows = row_of_all(inner, site)
-        if rows is None:
+    if rows is None:  # "the third Sungold", of the row in which they stand, or of each in which they may be counted
+        known = [row_itself(row, site) for row in _rows_of_all(inner, site)]
+        if len(known) == 1:
+            return trees_counted(replace(inner, selector=over(of, known[0])), at, site)
+        if len(known) > _MOST_ROWS or not fills_rows(inner, site):
             return None
-        of = over(of, rows)
+        ways = [place for row in known for place in trees_counted(replace(inner, selector=row), at, site) or ()]
+        return [one for one in ways if one.selector.relative or ids_of(one.selector, site)] or None
     if at.either:
         ways = [trees_counted(inner, replace(at, spans=(one,), either=False), site) or [] for one in at.spans]
         return [place for way in ways for place in way]

@@ -408,6 +408,7 @@ def attribute_is_not(attribute: Lex, value: Lex) -> list[AttributeTest]:
 @construction(
     "place_where: WHERE [DET] [TREE] [IS] test=attribute_test",
     "place_where: WHERE [DET] [TREE] [IS] test=attribute_test in_ where=region",
+    "place_where: WHERE MAPSAYS [DET] [TREE] [IS] test=attribute_test",
     "place_where: WHERE IT [IS] [DET] test=attribute_test",
     "place_where: WHERE IT [IS] [DET] test=attribute_test in_ where=region",
     cost=0.3,

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from fieldhand.places import selectors as s
+from fieldhand.planning.english.plant_words import is_kind_attribute
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.areas import inside
@@ -25,7 +26,7 @@ from fieldhand.planning.grammar.places.counted import (
     trees_counted,
     trees_numbered,
 )
-from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.places.numbered import ids_of, runs
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import chooses_from_trees, is_one_row
 from fieldhand.site.model import Site
@@ -373,6 +374,17 @@ def by_number(chosen: Chosen, site: Site, word: Lex | None = None) -> list[Place
     if at is None or at.noun == "stretch" or (at.noun == "end" and word is None and not chosen.inner.plural):
         return None  # "end" is a command rather than a place
     return trees_counted(chosen.inner, at, site)
+
+
+@construction("place: [DET] kind=ATTRVAL trees=numbers", cost=0.1, given=("site",))
+def numbered_of_a_crop(kind: Lex, trees: tuple[str, ...], site: Site) -> list[PlaceMeaning] | None:
+    """Compose "cabbage 12" where the ids of plants are no numbers: the twelfth of a row of cabbages."""
+    if any(tree.place.id.isdigit() for tree in site.trees) or not all(name.isdigit() for name in trees):
+        return None
+    at = Positions(tuple(runs(trees)))
+    kinds = [s.Where(attribute=name, test="eq", value=text) for name, text in kind.value if is_kind_attribute(name)]
+    plants = [Nominal(one, plural=len(trees) > 1) for one in kinds]
+    return [place for one in plants for place in trees_counted(one, at, site) or ()] or None
 
 
 @construction("place: each=EACH chosen=chosen", cost=0.1, given=("site",))
