@@ -1,5 +1,5 @@
 # A fresh machine needs Python 3.10 or newer and make; each target below starts from a bare clone.
-.PHONY: help setup demo test check docs clean
+.PHONY: help setup demo test test-versions check docs clean
 .DEFAULT_GOAL := help
 
 VENV := .venv
@@ -9,11 +9,12 @@ READY := $(VENV)/.ready
 WORKERS := $(shell echo $$(( $$(nproc 2>/dev/null || echo 2) + 1 )))
 
 help:
-	@echo "make demo    set up, then two whole missions on built-in sites (results in out/)"
-	@echo "make test    set up, then every test"
-	@echo "make check   set up, then lint, types, import rules"
-	@echo "make docs    set up, then these pages as one site with search (build/docs)"
-	@echo "make setup   the environment alone, in .venv"
+	@echo "make demo           set up, then two whole missions on built-in sites (results in out/)"
+	@echo "make test           set up, then every test"
+	@echo "make test-versions  set up, then the fast tests on every other Python at hand"
+	@echo "make check          set up, then lint, types, minimal versions, import rules"
+	@echo "make docs           set up, then these pages as one site with search (build/docs)"
+	@echo "make setup          the environment alone, in .venv"
 
 setup: $(READY)
 
@@ -29,10 +30,19 @@ demo: $(READY)
 test: $(READY)
 	@env -u PYTHONDONTWRITEBYTECODE $(BIN)/python -m pytest -n $(WORKERS) --dist worksteal
 
+# Seconds for all other releases of Python; what is not tested by then is named.
+WITHIN := 600
+
+test-versions: $(READY)
+	@$(BIN)/python scripts/test_versions.py --within $(WITHIN)
+
 check: $(READY)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
+	$(BIN)/vermin --quiet --no-tips --eval-annotations -t=3.10- src benchmarks/src scripts tests examples ros2
 	$(BIN)/mypy
+	@# The installed stubs of numpy are for newer releases: here, some of their functions return Any.
+	$(BIN)/mypy --python-version 3.10 --no-warn-return-any
 	$(BIN)/lint-imports
 
 docs: $(READY)

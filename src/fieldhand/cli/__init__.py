@@ -21,6 +21,7 @@ def main(*others: Callable[..., None]) -> None:
 
     from fieldhand.cli.app import assemble
     from fieldhand.errors import FieldhandError
+    from fieldhand.extras import missing_package
     from fieldhand.language import message
 
     for stream in (sys.stdout, sys.stderr):
@@ -49,6 +50,13 @@ def main(*others: Callable[..., None]) -> None:
     except KeyboardInterrupt:
         _print_failure(_language().say(message("interrupted")))
         sys.exit(_INTERRUPTED)
+    except ModuleNotFoundError as error:
+        missing = missing_package(error)
+        if missing is None:
+            _show_traceback()
+            sys.exit(1)
+        _print_failure(missing.line(_language().say))
+        sys.exit(missing.exit_status)
     except BrokenPipeError:
         # The reader of standard output (a pager, head) has exited; print nothing more, not even at exit.
         sys.stderr.close()

@@ -8,7 +8,12 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar
 
-import numba
+from fieldhand.extras import missing_package
+
+try:
+    import numba
+except ModuleNotFoundError as error:
+    raise (missing_package(error) or error) from error
 
 F = TypeVar("F", bound=Callable[..., Any])
 
