@@ -14,7 +14,8 @@ def require_amounts(setting: Setting, action: str, parameters: tuple[tuple[str, 
     Raises:
         OpenQuestion: A parameter has no number.
     """
-    for one in setting.robot.action[action].parameters if action else ():
+    known = setting.robot.action.get(action)  # a wait is none of them
+    for one in () if known is None else known.parameters:
         if (one.name, OPEN_VALUE) not in parameters or one.minimum is None or one.maximum is None:
             continue
         asked = message(
