@@ -186,3 +186,8 @@ def test_both_gates_of_three_are_refused_with_their_names() -> None:
 def test_captures_on_a_drive_around_ground_are_asked_about_or_along_its_edge() -> None:
     require_plan(PASTURE, HUSKY, "drive around the pond and read CO2 every 10 m", "for Transect(10, edge, pond): [co2]")
     require_question(PASTURE, HUSKY, "drive around the bank and read CO2 every 10 m", 2)
+
+
+def test_one_pass_along_a_fence_is_on_one_of_its_two_sides() -> None:
+    for request in ("mow one pass along the sheep fence", "film one strip along the sheep fence"):
+        require_question(PASTURE, TRACTOR, request, 2)

@@ -138,3 +138,15 @@ def test_slowly_is_the_speed_that_the_profile_says() -> None:
     assert isinstance(outcome, Planned)
     assert outcome.task.constraints.speed_m_s == 0.25
     assert any("0.25 m/s" in str(one) for one in outcome.task.command.assumptions)
+
+
+@pytest.mark.parametrize(
+    "request_",
+    [
+        "Photograph rows 3 and 4 and wait half a minute at the end of each row.",
+        "Photograph rows 3 and 4, waiting half a minute at the end of each row.",
+    ],
+)
+def test_a_wait_at_several_places_beside_other_work_is_not_made_afterwards(request_: str) -> None:
+    outcome = EnglishPlanner().plan(request_, open_site("demo"), load_robot("husky"))
+    assert isinstance(outcome, Refused)

@@ -11,6 +11,7 @@ from shapely.geometry.base import BaseGeometry
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.commands.laps import goes_around, is_thin
 from fieldhand.planning.grammar.commands.working import Tract
 from fieldhand.planning.grammar.meaning import WorkCommand
 from fieldhand.planning.grammar.places.compass import SIDES
@@ -56,17 +57,25 @@ def _side_towards(own: BaseGeometry, other: BaseGeometry) -> Side | None:
     if own.is_empty or other.is_empty:
         return None
     east, north = other.centroid.x - own.centroid.x, other.centroid.y - own.centroid.y
-    rectangle = own.minimum_rotated_rectangle
-    if isinstance(rectangle, Polygon):
-        corners = list(rectangle.exterior.coords)[:3]
-        (short, across), (length, _) = sorted(
-            (math.dist(one, two), (two[0] - one[0], two[1] - one[1])) for one, two in pairwise(corners)
-        )
-        if length >= _LONG * short and short > 0.0:
-            ahead = (east * across[0] + north * across[1]) / short**2
-            east, north = ahead * across[0], ahead * across[1]
-    if math.hypot(east, north) < 1e-6:
+    if (across := _across(own)) is not None:
+        ahead = east * across[0] + north * across[1]
+        east, north = ahead * across[0], ahead * across[1]
+    return None if math.hypot(east, north) < 1e-6 else _nearest_side(east, north)
+
+
+def _across(shape: BaseGeometry) -> tuple[float, float] | None:
+    """Return the direction across a long shape, a unit vector; None for any other shape."""
+    rectangle = shape.minimum_rotated_rectangle
+    if not isinstance(rectangle, Polygon):
         return None
+    corners = list(rectangle.exterior.coords)[:3]
+    (short, _), (length, (east, north)) = sorted(
+        (math.dist(one, two), (two[0] - one[0], two[1] - one[1])) for one, two in pairwise(corners)
+    )
+    return (-north / length, east / length) if length >= _LONG * short and length > 0.0 else None
+
+
+def _nearest_side(east: float, north: float) -> Side:
     if abs(east) >= abs(north):
         return "east" if east > 0 else "west"
     return "north" if north > 0 else "south"
@@ -108,6 +117,23 @@ def one_side_of_edge(side: EdgeSide, fence: s.Selector, site: Site) -> Tract | N
         return None
     known = side.of(fence, site)
     return None if known is None else Tract(fence, "perimeter", sides=known)
+
+
+@construction(
+    "tract: ONEPASS ALONG fence=region",
+    "tract: n=count STRIP ALONG fence=region",
+    cost=0.1,
+    given=("site",),
+)
+def once_along_fence(fence: s.Selector, site: Site, n: int = 1) -> list[Tract] | None:
+    """Compose "one pass along the fence", on either of its two sides."""
+    if n != 1 or not is_keep_out(fence, site) or not is_thin(fence, site) or goes_around(fence, site):
+        return None
+    across = _across(_ground(fence, site))
+    if across is None:
+        return None
+    sides = (_nearest_side(*across), _nearest_side(-across[0], -across[1]))
+    return [Tract(fence, "perimeter", sides=side) for side in sides]
 
 
 @construction(

@@ -46,6 +46,8 @@ def waited(setting: Setting, state: DialogueState, command: CaptureCommand, join
             command = replace(command, place=None)
             return _at_the_end(setting, state, command)
         command = replace(command, place=None)
+    if place is not None and place.shape in ("several", "area") and state.plan.steps and not ends:
+        raise NotComposed(message("it is not clear during which step it waits there", context="fault"))
     nowhere = state.where is None and state.lead is None and state.area is None and not state.plan.steps
     if place is None and nowhere:
         return _at_the_end(setting, state, command)  # at the start of the mission
