@@ -305,13 +305,21 @@ def _where_recorded(command: CaptureCommand, told: _Recorded) -> list[CaptureCom
 def _each_another(command: CaptureCommand, _: None) -> CaptureCommand | None:
     """Return captures each of which is taken at another plant than the others."""
     place, n = command.place, _only_count(command)
-    if place is None or place.per is not None or place.optional or place.refers_back:
+    if command.spacing is not None or place is None:
+        return command
+    if place.per is not None or place.optional or place.refers_back:
         return None
     if n is None:
-        return command if place.shape == "several" and as_quota(place.selector) is not None else None
+        once_each = all(one.count in (None, 1) for one in command.things) and command.times == 1
+        return command if place.shape == "several" and once_each else None
     if place.count == n:
         return _counted(command, 1)
-    if place.count is not None or place.shape not in ("several", "area") or not chooses_from_trees(place.selector):
+    if (
+        place.count is not None
+        or place.each
+        or place.shape not in ("several", "area")
+        or not chooses_from_trees(place.selector)
+    ):
         return None
     some = PlaceMeaning(s.Take(count=n, of=place.selector), "several", count=n)
     return replace(_counted(command, 1), place=some)
@@ -320,7 +328,8 @@ def _each_another(command: CaptureCommand, _: None) -> CaptureCommand | None:
 @construction(
     "adjunct: [EACH] [ONE] FROM DET OTHER TREE", "adjunct: [EACH] [ONE] AT DET OTHER TREE",
     "adjunct: [EACH] [ONE] FROM ANOTHER TREE", "adjunct: [EACH] [ONE] AT ANOTHER TREE",
-    "adjunct: [EACH] [ONE] OF DET OTHER TREE", "adjunct: [EACH] FROM OTHER TREE", "adjunct: EACH AT OTHER TREE",
+    "adjunct: [EACH] [ONE] OF DET OTHER TREE", "adjunct: [EACH] FROM OTHER TREE", "adjunct: [EACH] AT OTHER TREE",
+    "adjunct: OTHEREACH",
     cost=0.1,
 )  # fmt: skip
 def each_another() -> Adjunct:

@@ -133,7 +133,7 @@ def bare_clause(traits: Clause) -> Clause | None:
     "relative: WITH traits=traits",
     "relative: [which_is] RECORDEDAS [DET] traits=traits",
     "relative: OF test=attribute_test",
-    "relative: WHERE test=attribute_test",
+    "relative: WHERE [MAPSAYS] test=attribute_test",
     cost=0.5,
 )
 def with_clause(traits: Clause = (), test: AttributeTest | None = None) -> Clause:
