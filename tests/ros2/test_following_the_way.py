@@ -244,6 +244,10 @@ def test_the_profile_says_how_the_robot_drives() -> None:
     assert route.navigation.action == "compute_and_track_route"
     assert (route.navigation.working_action, route.navigation.goal_checker) == ("follow_path", "precise")
     assert route.navigation.nodes == ("route_server", "controller_server")
+    # A release that is only heard may have a route server.
+    heard = _profile(type="ComputeAndTrackRoute")
+    del heard["ros2"]["distro"]
+    assert parse_profile(yaml.safe_dump(heard).encode()).ros2 is not None
 
 
 @pytest.mark.parametrize(

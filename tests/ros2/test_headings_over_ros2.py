@@ -155,6 +155,7 @@ def test_over_dds_the_log_has_the_heading_at_each_picture(tmp_path: Path) -> Non
 
     values = yaml.safe_load(profile_bytes("husky")[0])
     values |= {"turn_deg_s": 45}
+    values["ros2"]["distro"] = "jazzy"
     values["actions"][PICTURE]["camera"] = {"side": "right"}
     values["ros2"]["actions"] = {PICTURE: values["ros2"]["actions"][PICTURE]}
     path = tmp_path / "husky.yaml"

@@ -387,7 +387,7 @@ class Ros2Document(Keyed):
 
     @model_validator(mode="after")
     def _known_there(self) -> Ros2Document:
-        if self.navigation.type.endswith("/ComputeAndTrackRoute") and self.distro not in _WITH_ROUTES:
+        if self.navigation.type.endswith("/ComputeAndTrackRoute") and self.distro not in (None, *_WITH_ROUTES):
             raise ValueError(f"Nav2 of {self.distro} has no route server; use FollowPath, or one of jazzy, kilted")
         if self.distro == "humble" and self.navigation.type.endswith("/FollowGPSWaypoints"):
             newer = ", ".join(name for name in get_args(Distro) if name != "humble")
