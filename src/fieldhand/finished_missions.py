@@ -46,11 +46,13 @@ class MissionLog:
         events: Events in the order in which they were logged, at least one.
         where: Name of the log in messages: the path of its file or folder.
         sha256: SHA-256 of the log file in hexadecimal; empty if the log is not a single file.
+        images: Folder in which the images of the mission lie, if it has any; None if it is unknown.
     """
 
     events: tuple[Event, ...]
     where: str
     sha256: str = ""
+    images: Path | None = None
 
 
 def read_log(path: Path) -> MissionLog:
@@ -70,7 +72,8 @@ def read_log(path: Path) -> MissionLog:
         raise InputError(
             message("contains no events"), where=str(path), advice=message("give a log that fieldhand run wrote")
         )
-    return MissionLog(events=events, where=str(path), sha256=hashlib.sha256(path.read_bytes()).hexdigest())
+    sha256 = hashlib.sha256(path.read_bytes()).hexdigest()
+    return MissionLog(events=events, where=str(path), sha256=sha256, images=path.parent)
 
 
 def report_log(
@@ -123,6 +126,7 @@ def report_log(
         estimate=mission.review(task, site, robot, document=document).estimate,
         signed=signed,
         hashes=rests,
+        images=log.images,
     )
     return files, assessment
 
@@ -188,6 +192,7 @@ def conclude(
     history: Path | None,
     at: datetime,
     bundle: Bundle | None = None,
+    images: Path | None = None,
 ) -> Conclusion:
     """Assess an executed mission, write its report, and record its costs for calibration.
 
@@ -204,6 +209,7 @@ def conclude(
         history: Folder for the costs, read by :func:`measured_missions`; None to record none.
         at: Time of the mission.
         bundle: Signed mission that was executed; None for an unsigned one.
+        images: Folder of the mission with its images; None if it is unknown.
 
     Raises:
         OutputError: The report cannot be written.
@@ -226,6 +232,7 @@ def conclude(
             estimate,
             signed="" if bundle is None else bundle.signer.in_words,
             hashes=() if bundle is None else (("signed mission", bundle.hashes["bundle"]),),
+            images=images,
         )
     return Conclusion(assessment=assessment, history_error=history_error)
 

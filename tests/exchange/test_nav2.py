@@ -418,12 +418,19 @@ def test_the_path_of_a_mission_is_its_planned_route() -> None:
     for stop in route.stops:
         ((x, y),) = on_map(found.datum, [stop.stand])
         assert min(math.dist((x, y), pose) for pose in at) < 0.01
+    stands = {tuple(on_map(found.datum, [stop.stand])[0]): stop.heading_deg for stop in route.stops}
+    met = 0
     for (a, b), pose in zip(pairwise(at), path["poses"][1:], strict=True):
         turn = pose["pose"]["orientation"]
         assert math.hypot(turn["z"], turn["w"]) == pytest.approx(1.0, abs=1e-5)
-        if math.dist(a, b) > 0.05:
-            yaw = 2.0 * math.atan2(turn["z"], turn["w"])
+        yaw = 2.0 * math.atan2(turn["z"], turn["w"])
+        stand = next((heading for there, heading in stands.items() if math.dist(there, b) < 0.01), None)
+        if stand is not None:  # as the robot stands there, which is along the aisle
+            met += 1
+            assert math.cos(yaw - math.radians(found.datum.heading_deg - stand)) > 0.999
+        elif math.dist(a, b) > 0.05:
             assert math.cos(yaw - math.atan2(b[1] - a[1], b[0] - a[0])) > 0.999
+    assert met >= len(stands)
     grid = read_map(found.files, "keepout.yaml")
     assert all(grid.at(x, y) == FREE for x, y in at)
     assert "path.yaml" not in demo()[1].files

@@ -21,8 +21,8 @@ FLIGHTS = 8
 
 @cache
 def flights() -> tuple[mission.ApprovedMission, tuple[mission.Run, ...]]:
-    """Return missions whose farthest places take a fifth of the battery each way."""
-    site, robot = Site.demo(), rechargeable(115_000)
+    """Return missions whose farthest places take a fifth of the battery each way, which the profile accepts."""
+    site, robot = Site.demo(), rechargeable(115_000, most_percent=90, stranding_probability=0.05)
     plan = ForEach(select=EveryNth(nth=6), body=Act(action="take_thermal_picture"))
     review = mission.review(task_of(plan, site, robot, recharge=True), site, robot)
     approved = mission.authorize(review, by="tests", confirmed=EveryWarning())

@@ -203,7 +203,7 @@ def test_a_charge_that_was_only_wished_for_is_not_made_before_the_way_home(site:
 
 
 def test_work_at_one_place_is_continued_after_a_charge(site: Site) -> None:
-    plan = InOrder(steps=tuple(Act(action="take_thermal_picture", at=TreeIs(tree="100"), count=12) for _ in range(12)))
+    plan = InOrder(steps=tuple(Act(action="take_thermal_picture", at=TreeIs(tree="40"), count=12) for _ in range(12)))
     done = run(plan, site, recharge=True)
     assert done.status == "completed", done.reason
     assert len(of_type(done.events, Acted)) == 144

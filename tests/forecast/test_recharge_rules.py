@@ -39,7 +39,7 @@ def test_one_leg_almost_never_reaches_the_stop_level(alpha: float, leg_m: float)
     rules = rules_of(round(alpha, 2), 1_500_000)
     needed = float(rules.needed(sums(leg_m), 0.0))
     reserve_only = float(rules.needed(sums(leg_m), 0.0, ends=True))
-    most = reserve_only + STOP_SHARE * max(0.0, rules.until_percent - reserve_only)
+    most = reserve_only + STOP_SHARE * max(0.0, rules.most_percent - reserve_only)
     assert chance_to_stop(rules, leg_m, needed) <= STOP_CHANCE * 1.02 or needed == pytest.approx(most)
 
 
@@ -49,7 +49,7 @@ def test_the_stop_level_only_adds_to_the_reserve_and_leaves_room_for_visits(legs
     reserve_only = float(rules.needed(sums(*legs), work, ends=True))
     needed = float(rules.needed(sums(*legs), work))
     assert needed >= reserve_only
-    assert needed <= max(reserve_only, rules.until_percent)
+    assert needed <= max(reserve_only, rules.most_percent)
     assert float(rules.needed(sums(*legs), work, charged=True)) <= reserve_only
 
 

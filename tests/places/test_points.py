@@ -8,13 +8,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from shapely.geometry import MultiPoint, Point, Polygon
+from shapely import affinity
+from shapely.geometry import MultiPoint, Point, Polygon, box
 
 from fieldhand.errors import PlaceError
 from fieldhand.places.context import Context
 from fieldhand.places.explanation import explain
 from fieldhand.places.resolution import resolve
-from fieldhand.places.selectors import Here, Marker, PointsIn, Rows, Spaced, TreeIs
+from fieldhand.places.selectors import Corners, Here, InZone, Marker, PointsIn, Rows, Spaced, StraightLine, TreeIs
 from fieldhand.site.model import Place, Site
 from support.sites.points import at_start, place_at, planted, site_of, without_rows
 
@@ -215,3 +216,86 @@ def test_a_line_inside_a_zone_runs_along_the_aisles():
     assert np.ptp(found[:, 0]) == pytest.approx(0.0, abs=1e-6)
     assert np.abs(site.xy[:, 0] - found[0, 0]).min() >= 1.5
     assert found[0, 1] == found[:, 1].min()
+
+
+WORDS = ("north-west", "north-east", "south-east", "south-west")
+FIELD = [
+    ("east shed", "zone", [(60, -5), (70, -5), (70, 5), (60, 5)]),
+    ("west shed", "zone", [(-70, -5), (-60, -5), (-60, 5), (-70, 5)]),
+    ("pond", "keep_out", [(10, -10), (30, -10), (30, 10), (10, 10)]),
+]
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    st.tuples(st.floats(-50, 50), st.floats(20, 90)),
+    st.tuples(st.floats(-50, 50), st.floats(-90, -20)),
+    st.floats(0.5, 60),
+    st.integers(1, 12),
+)
+def test_points_between_two_places_lie_on_the_straight_line_from_one_to_the_other(begin, end, apart, count):
+    site = site_of([begin, end])
+    start, stop = TreeIs(tree="1"), TreeIs(tree="2")
+    length = math.dist(begin, end)
+    along = np.subtract(end, begin) / length
+    spaced = xy(points(StraightLine(start=start, end=stop, apart_m=apart), site))
+    assert len(spaced) == int(length / apart + 1e-6) + 1
+    assert spaced == pytest.approx(np.add(begin, np.arange(len(spaced))[:, None] * apart * along), abs=1e-6)
+    counted = xy(points(StraightLine(start=start, end=stop, count=count), site))
+    wanted = np.linspace(0, length, count) if count > 1 else np.array([length / 2])
+    assert counted == pytest.approx(np.add(begin, wanted[:, None] * along), abs=1e-6)
+
+
+def test_a_line_between_zones_begins_and_ends_at_their_edges_and_leaves_out_what_lies_in_a_keep_out():
+    site = site_of([(0.0, 50.0)], zones=FIELD)
+    ends = {"start": InZone(zone="west shed"), "end": InZone(zone="east shed")}
+    selector = StraightLine(apart_m=10.0, **ends)
+    found = xy(points(selector, site))
+    assert found[:, 0].tolist() == pytest.approx([-60, -50, -40, -30, -20, -10, 0, 9, 31, 40, 50, 60], abs=1e-6)
+    assert "1 point of the line is left out" in str(explain(selector, site, at_start(site)))
+    named = points(selector, site)
+    assert [named[0].id, named[-1].id] == [f"point {k} of 12 from west shed to east shed" for k in (1, 12)]
+
+
+@pytest.mark.parametrize(
+    ("start", "end", "more", "says"),
+    [
+        (TreeIs(tree="1"), TreeIs(tree="1"), {"apart_m": 5.0}, "they are at the same place; name two places"),
+        (TreeIs(tree="1"), Rows(), {"apart_m": 5.0}, "only one is allowed here"),
+        (TreeIs(tree="1"), TreeIs(tree="9"), {}, "0 points 0 m apart on a line are not possible"),
+        (TreeIs(tree="1"), TreeIs(tree="9"), {"apart_m": -2.0}, "not possible"),
+        (TreeIs(tree="1"), TreeIs(tree="9"), {"apart_m": math.inf}, "not possible"),
+        (TreeIs(tree="1"), TreeIs(tree="9"), {"apart_m": 1e-6}, "not possible"),
+        (TreeIs(tree="1"), TreeIs(tree="9"), {"apart_m": 5.0, "count": 3}, "a number or a distance, not both"),
+    ],
+)
+def test_lines_that_cannot_be_are_said_to_be_so(start, end, more, says):
+    with pytest.raises(PlaceError, match=says):
+        points(StraightLine(start=start, end=end, **more), orchard())
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.floats(10, 80), st.floats(10, 80), st.floats(-40, 40), st.booleans())
+def test_corners_of_ground_lie_inside_a_zone_and_outside_a_keep_out_near_its_corners(wide, high, turned, out):
+    shape = affinity.rotate(box(-wide / 2, -high / 2, wide / 2, high / 2), turned)
+    kind = "keep_out" if out else "zone"
+    site = site_of([(0.0, 200.0)], zones=[("plot", kind, shape)])
+    found = points(Corners(zone="plot"), site)
+    assert [place.id for place in found] == [f"{name} corner of plot" for name in WORDS]
+    corners = [Point(xy) for xy in shape.exterior.coords[:-1]]
+    for place in found:
+        at = Point(place.xy)
+        assert shape.contains(at) != out
+        assert min(at.distance(corner) for corner in corners) < 3.0
+    assert len({round(place.xy[0], 3) for place in found}) >= 2
+    (one,) = points(Corners(which=("nw",), zone="plot"), site)
+    assert one.xy == pytest.approx(found[0].xy)
+
+
+def test_corners_without_free_ground_are_an_error():
+    zones = [("moor", "zone", [(0, 0), (50, 0), (50, 50), (0, 50)])]
+    zones.append(("lake", "keep_out", [(-300, -300), (300, -300), (300, 300), (-300, 300)]))
+    with pytest.raises(PlaceError, match="no free ground in a corner of moor"):
+        points(Corners(zone="moor"), site_of([(0.0, 400.0)], zones=zones))
+    with pytest.raises(PlaceError, match="no zone 'nowhere'"):
+        points(Corners(zone="nowhere"), orchard(zones=zones))

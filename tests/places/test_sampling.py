@@ -148,6 +148,8 @@ def test_zones_are_groups_too_and_a_tree_belongs_to_one():
         (Transect(count=2000), "2000 were asked for, but there are only 1006"),
         (Transect(count=5, zone="orchard"), "no zone 'orchard'"),
         (Transect(count=5, zone="pond"), "is a keep-out zone"),
+        (Transect(count=5, shape="edge", off_m=-1.0), "points cannot lie -1 m from an edge"),
+        (Transect(count=5, shape="edge", off_m=float("nan")), "points cannot lie nan m from an edge"),
         (Grid(every_m=0.0), "a grid cannot be 0 m wide"),
         (Grid(every_m=0.01), "has .* cells there"),
         (PointsIn(zone="meadow", count=0, random=True), "0 points in a zone"),
@@ -327,8 +329,10 @@ def test_the_vines_of_a_quota_are_named_by_their_group_unless_they_are_many():
 
 
 @pytest.mark.parametrize(("zone", "inside"), [("cow paddock", True), ("", True), ("pond", False)])
-@pytest.mark.parametrize("apart_m", [6.0, 15.0])
-def test_points_along_an_edge_are_evenly_spaced_beside_it(zone: str, apart_m: float, inside: bool) -> None:
+@pytest.mark.parametrize(("apart_m", "off_m"), [(6.0, 1.5), (15.0, 1.5), (6.0, 4.0)])
+def test_points_along_an_edge_are_evenly_spaced_beside_it(
+    zone: str, apart_m: float, off_m: float, inside: bool
+) -> None:
     site = pasture()
     called = [one.polygon for one in site.zones if one.name == (zone or "common")]
     places = found(Transect(shape="edge", apart_m=apart_m, zone=zone), site)
@@ -348,3 +352,15 @@ def test_so_many_points_along_an_edge_are_named_by_their_zone() -> None:
     assert [place.id for place in places] == [f"point {k} of 5 in bank" for k in range(1, 6)]
     with pytest.raises(PlaceError, match="wood"):
         found(Transect(shape="edge", count=5, zone="wood"), pasture())
+
+
+@pytest.mark.parametrize(("zone", "inside"), [("cow paddock", True), ("pond", False)])
+@pytest.mark.parametrize("off_m", [1.5, 4.0, 7.5])
+def test_points_along_an_edge_keep_the_distance_from_it_that_is_asked_for(
+    zone: str, inside: bool, off_m: float
+) -> None:
+    site = pasture()
+    ground = next(one.polygon for one in site.zones if one.name == zone)
+    for place in found(Transect(shape="edge", apart_m=6.0, off_m=off_m, zone=zone), site):
+        assert ground.contains(Point(place.xy)) == inside
+        assert ground.exterior.distance(Point(place.xy)) == pytest.approx(off_m, abs=0.1)

@@ -194,7 +194,7 @@ def test_units_are_those_of_physics() -> None:
         ({"battery__type": "my_msgs/Pack"}, "'my_msgs/Pack' is not a type here; write package/msg/Name"),
         ({"stop": {"topic": "stop", "stopped": "maybe"}}, "ros2.stop.stopped: "),
         ({"actions__probe": ROVER["ros2"]["actions"]["probe_soil"]}, "no action 'probe'; did you mean 'probe_soil'?"),
-        ({"actions__probe_soil": {}}, "nothing performs the action; give action, service or topics"),
+        ({"actions__probe_soil": {}}, "nothing performs the action; give action, service, topics or images"),
         (
             {"actions__probe_soil__service": {"name": "p", "type": "std_srvs/srv/Trigger"}},
             "both action and service are given; give only one of them",
@@ -239,6 +239,16 @@ def test_units_are_those_of_physics() -> None:
         ({"interfaces": {"rover_probe/msg/M": "int8 a # " + "x" * 20_000}}, "at most 20000 characters"),
         ({"interfaces": {f"rover_probe/msg/M{n}": "int8 a" for n in range(51)}}, "ros2.interfaces: "),
         ({"interfaces": {"Measure": "int8 a"}}, "'Measure' is not a type here"),
+        ({"actions__probe_soil__images": {"rgb": {"topic": "c", "type": "std_msgs/msg/Bool"}}}, "images.rgb.type: "),
+        ({"actions__probe_soil__images": {"../x": {"topic": "c"}}}, "ros2.actions.probe_soil.images"),
+        ({"actions__probe_soil__images": {f"c{n}": {"topic": "c"} for n in range(9)}}, "images: "),
+        (
+            {
+                "actions__probe_soil__images": {"rgb": {"topic": "c"}},
+                "actions__probe_soil__action__images": {"rgb": "image"},
+            },
+            "the image rgb is given twice",
+        ),
     ],
 )
 def test_what_does_not_fit_is_refused_with_its_place(values: dict[str, object], expected: str) -> None:

@@ -94,10 +94,15 @@ def test_a_profile_of_the_users_own_is_read_from_its_path(tmp_path):
 
 def test_the_profile_in_the_docs_can_be_used():
     page = (Path(__file__).resolve().parents[2] / "docs" / "add-a-robot.md").read_text()
-    robot, over_ros2 = re.findall(r"```yaml\n(.*?)```", page, re.DOTALL)
+    robot, camera, over_ros2 = re.findall(r"```yaml\n(.*?)```", page, re.DOTALL)
     assert parse_profile(robot.encode()).action["read_soil_salinity"].measures == ("soil_salinity",)
     reached = parse_profile(f"{robot}\n{over_ros2}".encode()).ros2
     assert reached.actions["read_soil_salinity"].call.readings["soil_salinity"].scale == 10
+    values, more = yaml.safe_load(robot), yaml.safe_load(camera)
+    values["actions"]["take_picture"] |= more.pop("actions")["take_picture"]
+    looking = parse_profile(yaml.safe_dump(values | more).encode())
+    assert looking.turn_deg_s == 45
+    assert looking.action["take_picture"].camera.side == "right"
 
 
 def test_every_key_of_a_profile_is_in_the_docs():

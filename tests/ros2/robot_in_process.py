@@ -173,13 +173,17 @@ def _await_one_robot(node: DdsTransport, bound: Ros2Bindings) -> None:
 
 @contextmanager
 def connected_simulated_robot(
-    site: str, robot: str, task: Task, *, seed: int, tick_s: float, world: Mapping[str, Any] = {}
+    site: str, robot: str, task: Task, *, seed: int, tick_s: float, world: Mapping[str, Any] = {}, truth: str = ""
 ) -> Iterator[tuple[Vehicle, RobotInProcess]]:
-    """A simulated robot in another process, as the vehicle of a mission: both live on one time."""
+    """A simulated robot in another process, as the vehicle of a mission: both live on one time.
+
+    Args:
+        truth: Profile of the robot as it is, if the mission takes it for another.
+    """
     far, profile = RobotInProcess(), load_robot(robot)
     node: DdsTransport | None = None
     try:
-        far.tell("new_simulated_robot", site=site, robot=robot, seed=seed, world=world)
+        far.tell("new_simulated_robot", site=site, robot=truth or robot, seed=seed, world=world)
         bound = bindings_of(profile)
         known = Interfaces.of(bound.release, bound.interfaces)
         node = open_dds(known)

@@ -32,7 +32,8 @@ def test_every_message_of_a_release_has_a_default_that_fits_it(distro: Distro) -
 def test_navigation_is_known_as_each_release_has_it(distro: Distro) -> None:
     interfaces = Interfaces.of(distro)
     known = [n for n in get_args(NavigationType) if interfaces.knows(n) and interfaces.knows(f"{n}_SendGoal")]
-    assert len(known) == (2 if distro == "humble" else 3)  # degrees came with Iron
+    # Degrees came with Iron, the route server with Jazzy.
+    assert len(known) == {"humble": 3, "iron": 4}.get(distro, 5)
     result = interfaces.fields("nav2_msgs/action/NavigateToPose_Result")
     assert ("error_code" in result, "error_msg" in result) == (distro != "humble", distro in ("jazzy", "kilted"))
     assert interfaces.field_at("robot_localization/srv/FromLL_Request", "ll_point.latitude").base == "float64"

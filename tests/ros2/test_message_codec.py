@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from rosbags.typesys.store import Typestore
 
-from fieldhand.execution.drivers.ros2.dds import message_codec as codec_module
+from fieldhand.execution.drivers.ros2 import transport as transport_module
 from fieldhand.execution.drivers.ros2.dds.message_codec import Header, MessageCodec, Unreadable
 from fieldhand.execution.drivers.ros2.dds.names import UserData, ros_type, wire_type
 from fieldhand.execution.drivers.ros2.interfaces import FieldType, Interfaces
@@ -107,11 +107,17 @@ def test_bytes_that_do_not_fit_are_told_not_raised(data: st.DataObject) -> None:
 
 
 def test_a_message_that_is_too_large_is_not_unpacked(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(codec_module, "MOST_BYTES", 1000)
+    monkeypatch.setattr(transport_module, "MOST_BYTES", 1000)
     name = "std_msgs/msg/String"
     found = CODEC.type_of(name).deserialize(CODEC.encode(name, {"data": "x" * 1001}).serialize())
     assert isinstance(found, Unreadable)
     assert "more than 1000" in found.why
+    # Images are larger than anything else that a robot sends.
+    image = CODEC.encode("sensor_msgs/msg/Image", {"data": bytes(2000)}).serialize()
+    sample = CODEC.type_of("sensor_msgs/msg/Image").deserialize(image)
+    assert CODEC.decode("sensor_msgs/msg/Image", sample)["data"] == bytes(2000)
+    monkeypatch.setattr(transport_module, "MOST_IMAGE_BYTES", 1000)
+    assert isinstance(CODEC.type_of("sensor_msgs/msg/Image").deserialize(image), Unreadable)
 
 
 def test_types_are_called_as_ros_calls_them() -> None:

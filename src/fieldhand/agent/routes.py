@@ -39,6 +39,7 @@ LISTED = 50
 LOOK_S = 0.2
 
 BundleHash = Annotated[str, Path(pattern=r"^[0-9a-f]{64}$")]
+ImageName = Annotated[str, Path(pattern=r"^[A-Za-z0-9_-]{1,150}\.(png|jpg|tif)$")]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -129,6 +130,14 @@ def router(
         lines, idle = await _awaited(supervisor, received, after, wait)
         standing = await run_in_threadpool(supervisor.status_of, received)
         return Events(events=event_lines(lines), idle=idle, mission=mission_summary(standing))
+
+    @routes.get("/agent/missions/{bundle}/images/{image}")
+    def image(bundle: BundleHash, image: ImageName) -> Response:
+        """Return an image of a mission, which an event of it names."""
+        data = supervisor.image_of(find_received(bundle), image)
+        if data is None:
+            raise RefusedRequest(404, "there is no such image", "ask for one that an action event of the mission names")
+        return Response(content=data, media_type="application/octet-stream")
 
     @routes.get("/agent/missions/{bundle}/runs")
     def runs(bundle: BundleHash) -> Runs:

@@ -130,6 +130,7 @@ def driven_map(events: Iterable[Event]) -> Feature:
                         place=event.place,
                         readings=dict(event.readings),
                         units=dict(event.units),
+                        **({} if event.heading_deg is None else {"heading_deg": round(event.heading_deg, 1)}),
                     )
                 )
             case Ended():
@@ -191,6 +192,8 @@ def _add_stops(stops: dict[tuple[str, str], Feature], walk: Walk, *, other: bool
         )
         if step.node.id not in stop["properties"]["nodes"]:
             stop["properties"]["nodes"].append(step.node.id)
+        if step.sees is not None and step.heading_deg is not None:
+            stop["properties"]["heading_deg"] = round(step.heading_deg, 1)
 
 
 def _leg(driving: Driving, until: float, *, to: str, path: Sequence[tuple[float, float]] | None = None) -> Feature:

@@ -15,9 +15,15 @@ from fieldhand.approval.account import unaccounted
 from fieldhand.approval.battery import battery_problems
 from fieldhand.approval.branch_checks import branch_problems, exit_problems
 from fieldhand.approval.budget import budget_problems
+from fieldhand.approval.camera_checks import camera_problems
 from fieldhand.approval.earlier_checks import choice_problems, none_now, records_problems
 from fieldhand.approval.problem import PlanProblem, node_in, with_words
-from fieldhand.approval.recharging import recharge_ability_problems, recharge_problems, return_problems
+from fieldhand.approval.recharging import (
+    recharge_ability_problems,
+    recharge_problems,
+    return_problems,
+    stranding_problems,
+)
 from fieldhand.approval.request_warnings import request_warnings
 from fieldhand.approval.speed import speed_problems
 from fieldhand.approval.timing import timing_problems
@@ -130,7 +136,9 @@ def examine(
                 problems.extend(battery_problems(task, robot))
                 problems.extend(timing_problems(task, site, forecast))
                 problems.extend(working_problems(task, robot, forecast))
+                problems.extend(camera_problems(robot, forecast))
                 problems.extend(recharge_problems(task, site, robot, forecast))
+                problems.extend(stranding_problems(task, site, robot, forecast))
                 problems.extend(return_problems(task, robot, forecast))
     once = dict.fromkeys(with_words(problem, task) for problem in problems)
     found = tuple(sorted(once, key=lambda p: p.severity != "error"))

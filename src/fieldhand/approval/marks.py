@@ -10,11 +10,13 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 
 from fieldhand.approval.stops import Certainty, Leg, MapStop
+from fieldhand.site.bearings import bearing_of
 from fieldhand.site.drawing.colours import PATH
 from fieldhand.site.drawing.ground import disc_diameter
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.markers import MarkerStyle
 
 #: Colours that most colour-blind readers can distinguish (Okabe and Ito 2008) on green trees.
 PALETTE = ("#d55e00", "#0072b2", "#cc79a7", "#e69f00", "#56b4e9", "#8b5cf6", "#111111")
@@ -40,6 +42,10 @@ def colours_of(stops: Sequence[MapStop]) -> dict[str, str]:
 WORKED, _WORKED_PT = "#e08a1e", 4.0
 
 
+#: Colour and size in points of the mark for the robot's heading at a picture.
+HEADING, HEADING_PT = "#ffd23f", 8.0
+
+
 def draw_leg(ax: Axes, leg: Leg) -> None:
     """Draw a leg with a line style that shows its certainty."""
     style, width, alpha = LINES[leg.certainty]
@@ -50,13 +56,18 @@ def draw_leg(ax: Axes, leg: Leg) -> None:
         ax.plot(x, y, color=WORKED, linewidth=_WORKED_PT, alpha=0.55, solid_capstyle="butt", zorder=9, gid="worked")
 
 
-def draw_arrows(ax: Axes, legs: Sequence[Leg]) -> None:
-    """Draw arrow heads along the route, spaced by a fixed fraction of the map so that short legs remain visible."""
+def _arrow_head(heading_deg: float) -> MarkerStyle:
+    """Return an arrow head that points in a heading, in degrees clockwise from north."""
     from matplotlib.markers import MarkerStyle
     from matplotlib.path import Path as Outline
     from matplotlib.transforms import Affine2D
 
     head = Outline([(0, 1.1), (-0.75, -0.8), (0, -0.35), (0.75, -0.8), (0, 1.1)], closed=True)
+    return MarkerStyle(head, transform=Affine2D().rotate_deg(-heading_deg))
+
+
+def draw_arrows(ax: Axes, legs: Sequence[Leg]) -> None:
+    """Draw arrow heads along the route, spaced by a fixed fraction of the map so that short legs remain visible."""
     (x0, x1), (y0, y1) = ax.get_xlim(), ax.get_ylim()
     gap = 0.09 * math.hypot(x1 - x0, y1 - y0)
     since = gap
@@ -67,8 +78,7 @@ def draw_arrows(ax: Axes, legs: Sequence[Leg]) -> None:
             if length <= 0 or since < gap:
                 continue
             since = 0.0
-            turn = math.degrees(math.atan2(ay1 - ay0, ax1 - ax0)) - 90
-            marker = MarkerStyle(head, transform=Affine2D().rotate_deg(turn))
+            marker = _arrow_head(bearing_of((ax0, ay0), (ax1, ay1)))
             count = max(1, round(length / (3 * gap)))
             for part in ((k + 0.6) / count for k in range(count)):
                 ax.plot(
@@ -96,6 +106,17 @@ def draw_stop(ax: Axes, stop: MapStop, colours: dict[str, str], disc: float) -> 
     if stop.place.stand is not None:
         # The robot works from the aisle: a thin line connects the tree to the robot's position.
         ax.plot((x, stop.place.stand[0]), (y, stop.place.stand[1]), color=PATH, linewidth=0.9, alpha=0.7, zorder=9)
+    if stop.heading_deg is not None and stop.place.stand is not None:
+        ax.plot(
+            *stop.place.stand,
+            marker=_arrow_head(stop.heading_deg),
+            markersize=HEADING_PT,
+            color=HEADING,
+            markeredgecolor=PATH,
+            markeredgewidth=0.8,
+            zorder=12,
+            gid="heading",
+        )
     if not stop.actions:
         ax.plot(x, y, marker="o", markersize=6, color="white", markeredgecolor=PATH, markeredgewidth=1.5, zorder=12)
     size = stop_size(stop, disc)

@@ -7,7 +7,7 @@ import textwrap
 from functools import partial
 from typing import TYPE_CHECKING
 
-from fieldhand.approval.marks import LINES
+from fieldhand.approval.marks import HEADING, HEADING_PT, LINES
 from fieldhand.approval.readback import ReadBack, say_totals
 from fieldhand.approval.stops import Certainty, DrawnPlan
 from fieldhand.language import Language, message
@@ -192,6 +192,20 @@ def _legend(plan: DrawnPlan, colours: dict[str, str], language: Language) -> lis
     found = [disc(colour, "white", capitalised(say_action(name))) for name, colour in colours.items()]
     if any("conditional" in stop.actions.values() for stop in plan.stops):
         found.append(disc("white", INK, message("Hollow: only if a condition holds")))
+    if any(stop.heading_deg is not None for stop in plan.stops):
+        label = language.say(message("Heading of the robot at a picture"))
+        found.append(
+            Line2D(
+                [],
+                [],
+                marker="^",
+                linestyle="none",
+                markersize=HEADING_PT,
+                color=HEADING,
+                markeredgecolor=PATH,
+                label=label,
+            )
+        )
     for certainty in LINES:
         if any(leg.certainty == certainty for leg in plan.legs):
             style, width, alpha = LINES[certainty]

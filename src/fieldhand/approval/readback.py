@@ -23,8 +23,9 @@ from fieldhand.task.build import FAULTED_EXITS
 from fieldhand.task.earlier import site_of
 from fieldhand.task.frames import Budget, FaultedExit, Task, Then
 from fieldhand.wording.branches import FAULTS, say_decisions
+from fieldhand.wording.cameras import camera_notes
 from fieldhand.wording.earlier import say_earlier
-from fieldhand.wording.recharging import say_charges, say_energy_limits
+from fieldhand.wording.recharging import say_charges, say_energy_limits, say_far_charging
 from fieldhand.wording.resolved_places import gather
 from fieldhand.wording.steps import ReadBackLine, say_exit_after, write_lines
 from fieldhand.wording.timing import say_timing
@@ -124,7 +125,9 @@ def read_back(task: Task, site: Site, robot: RobotProfile, estimate: Estimate) -
             *_notes(walks, site),
             *map(_say_sampling, estimate.sampling),
             *_waits(task, robot),
+            *say_far_charging(task.constraints, robot, estimate.worst.charged_to),
             *way_notes(task.constraints, robot),
+            *camera_notes(walks, robot),
         ),
         totals=_totals(estimate, task, robot),
         usual=_usual(task, limits, faults),

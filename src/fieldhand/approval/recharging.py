@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from fieldhand.approval.problem import PlanProblem
@@ -96,7 +97,7 @@ def recharge_problems(task: Task, site: Site, robot: RobotProfile, forecast: Est
             if stretch.step is None:
                 continue
             wanted, place = float(needed.from_charger[number]), stretch.step.places[0]
-            within = wanted <= rules.until_percent or needed.here[number] <= forecast.charge_percent
+            within = wanted <= rules.most_percent or needed.here[number] <= forecast.charge_percent
             if stretch.asked is None or within or (stretch.step.node.id, place.id) in seen:
                 continue
             seen.add((stretch.step.node.id, place.id))
@@ -110,10 +111,48 @@ def recharge_problems(task: Task, site: Site, robot: RobotProfile, forecast: Est
                     " battery has, {needed} % with the reserve, but it is charged to {until} %",
                     place=say_place(place),
                     needed=say_rounded(wanted),
-                    until=say_number(rules.until_percent),
+                    until=say_number(rules.most_percent),
                 ),
                 advice=message("leave it out, charge further, or do less at a time"),
             )
+
+
+def stranding_problems(task: Task, site: Site, robot: RobotProfile, forecast: Estimate) -> Iterator[PlanProblem]:
+    """Yield a problem if too many missions would be stopped on their way to the charger or home.
+
+    It is a warning where the plan says when to charge: then the limit of the reserve is what was accepted.
+    """
+    rules = recharge_rules(task, site, robot)
+    if rules is None:
+        return
+    worst = max(forecast.branches, key=lambda branch: branch.stranding)
+    if worst.stranding <= rules.stranding:
+        return
+    ways = [
+        (stretch.to_charger_m, stretch.step.places[0])
+        for stretch in stretches(worst.walk.steps, rules, drives_for(site, robot))
+        if stretch.step is not None and math.isfinite(stretch.to_charger_m)
+    ]
+    metres, place = max(ways, key=lambda way: way[0])
+    yield PlanProblem(
+        where=message("battery"),
+        what=message(
+            "one mission in {number} would be stopped by its battery on the way to the charger or home, more than"
+            " the accepted one in {accepted}: {place} is {metres} m from the charger, {percent} % of the battery each"
+            " way, and it is charged to {until} %",
+            number=say_rounded(1.0 / worst.stranding),
+            accepted=say_rounded(1.0 / rules.stranding),
+            place=say_place(place),
+            metres=say_rounded(metres),
+            percent=say_rounded(metres * rules.per_metre),
+            until=say_number(rules.most_percent),
+        ),
+        advice=message(
+            "leave out the places far from the charger, charge further, or accept more (stranding_probability under"
+            " energy: charging in the profile)"
+        ),
+        severity="error" if task.constraints.recharge else "warning",
+    )
 
 
 def return_problems(task: Task, robot: RobotProfile, forecast: Estimate) -> Iterator[PlanProblem]:

@@ -24,12 +24,14 @@ class MapStop:
     Attributes:
         labels: Numbers of the read-back steps performed there; visits of a loop as "2.1", "2.2".
         actions: Certainty of each action, by action name.
+        heading_deg: Heading of the robot for a camera, in degrees clockwise from north; None without a camera.
     """
 
     place: Place
     labels: list[str] = field(default_factory=list)
     actions: dict[str, Certainty] = field(default_factory=dict)
     certainty: Certainty = "conditional"
+    heading_deg: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -124,6 +126,7 @@ class _Gatherer:
         if label and label not in stop.labels:
             stop.labels.append(label)
         if act is not None:
+            stop.heading_deg = step.heading_deg if step.sees is not None else stop.heading_deg
             stop.actions[act.action] = _surest(stop.actions.get(act.action, certainty), certainty)
         stop.certainty = _surest(stop.certainty, certainty)
 

@@ -32,14 +32,16 @@ def implement_problems(task: Task, robot: RobotProfile) -> Iterator[PlanProblem]
                 advice=message("ask for every aisle, every second aisle, ..."),
             )
         lanes = node.heading in ("north_south", "east_west")
-        if node.heading != "any" and (node.mode not in ("rows", "aisles", "area") or lanes != (node.mode == "area")):
+        whole_edge = node.mode == "perimeter" and node.sides in ("one", "both")
+        no_way = node.mode == "headlands" or whole_edge or lanes != (node.mode == "area")
+        if node.heading != "any" and no_way:
             yield PlanProblem(
                 node=node.id,
                 where=message("plan"),
                 what=message("this work has no such direction"),
                 advice=message(
-                    "lanes of an area run north_south or east_west; rows and aisles are driven north, east, south or"
-                    " west"
+                    "lanes of an area run north_south or east_west; rows, aisles and one side of an edge are driven"
+                    " north, east, south or west"
                 ),
             )
         action = robot.action.get(node.action)

@@ -25,6 +25,8 @@ def binding_lines(profile: RobotProfile) -> Iterator[str]:
     yield f"  position {_topic(ros2, ros2.position.fix)}, to {ros2.position.most_sigma_m:g} m"
     yield f"  battery {_topic(ros2, ros2.battery.topic)}: {_value(ros2.battery.value)}"
     yield f"  metres {'along the position' if ros2.odometry is None else _topic(ros2, ros2.odometry)}"
+    if ros2.odometer is not None:
+        yield f"  all metres {_topic(ros2, ros2.odometer.topic)}: {_value(ros2.odometer.value)}"
     if ros2.stop is not None:
         yield f"  stop {_topic(ros2, ros2.stop.topic)}: while {ros2.stop.path} is {str(ros2.stop.stopped).lower()}"
     for action in profile.doable.values():
@@ -66,11 +68,15 @@ def _action(ros2: Ros2Bindings, name: str, bound: ActionBinding) -> Iterator[str
     for quantity, message in bound.topics.items():
         where = f"{ros2.whole_name(message.topic)} ({message.type})"
         yield f"  {name}: {quantity} = {_value(message.value)} of the next {where} within {message.within_s:g} s"
+    for label, image in bound.images.items():
+        where = f"{ros2.whole_name(image.topic)} ({image.type})"
+        yield f"  {name}: image {label} from the next {where} within {image.within_s:g} s"
 
 
 def _call(ros2: Ros2Bindings, call: CallBinding) -> str:
     asked = f" with {_named(call.request)}" if call.request else ""
     read = "".join(f"; {quantity} = {_value(value)}" for quantity, value in call.readings.items())
+    read += "".join(f"; image {label} = {path}" for label, path in call.images.items())
     flag = f"; it worked if {call.success}" if call.success else ""
     return f"{call.kind} {ros2.whole_name(call.name)} ({call.type}){asked} within {call.within_s:g} s{read}{flag}"
 

@@ -16,8 +16,8 @@ from fieldhand.errors import InputError
 
 if TYPE_CHECKING:
     from fieldhand.exchange.routes.route import ExportedRoute
+    from fieldhand.finished_missions import MissionLog
     from fieldhand.mission.documents import SiteAndRobot
-    from fieldhand.task.results import Event
 
 #: Names of all formats, of those for Tasks, and of those for event logs.
 FORMATS = ("btcpp", "geojson", "kml", "csv", "qgc", "mcap", "events")
@@ -146,7 +146,8 @@ def _export_log(source: str, folder: Path | None, recorded: RecordedOptions, to:
     from fieldhand.task.event_lines import to_json
     from fieldhand.wording.events import EventText
 
-    events = (read_log(Path(source)) if folder is None else log_of_folder(folder)).events
+    log = read_log(Path(source)) if folder is None else log_of_folder(folder)
+    events = log.events
     facts: dict[str, Any] = {"events": len(events)}
     if to == "events":
         return _Exported(data="".join(to_json(event) + "\n" for event in events).encode(), facts=facts)
@@ -156,7 +157,7 @@ def _export_log(source: str, folder: Path | None, recorded: RecordedOptions, to:
             site_and_robot = plan_of_folder(folder).site_and_robot
         elif recorded.site is not None:
             site_and_robot = site_and_robot_of(recorded.site, recorded.robot, lenient=recorded.lenient)
-        _write_mcap(events, output, site_and_robot, recorded.robot or "husky")
+        _write_mcap(log, output, site_and_robot, recorded.robot or "husky")
         notes = () if site_and_robot else ("without --site the map shows no trees",)
         return _Exported(data=None, facts=facts, notes=notes)
     named = plan_of_folder(folder).site_and_robot.robot if folder is not None else load_robot(recorded.robot or "husky")
@@ -164,14 +165,15 @@ def _export_log(source: str, folder: Path | None, recorded: RecordedOptions, to:
     return _Exported(data=_WRITERS[to](route), facts=facts | _facts(route))
 
 
-def _write_mcap(events: tuple[Event, ...], output: Path, site_and_robot: SiteAndRobot | None, robot: str) -> None:
+def _write_mcap(recorded: MissionLog, output: Path, site_and_robot: SiteAndRobot | None, robot: str) -> None:
     from fieldhand.exchange.mcap import McapLog
     from fieldhand.robot.loader import load_robot
     from fieldhand.wording.events import EventText
 
     event_text = EventText(load_robot(robot) if site_and_robot is None else site_and_robot.robot)
-    with McapLog(output, tell=event_text.line, site=None if site_and_robot is None else site_and_robot.site) as log:
-        for event in events:
+    site = None if site_and_robot is None else site_and_robot.site
+    with McapLog(output, tell=event_text.line, site=site, images=recorded.images) as log:
+        for event in recorded.events:
             log(event)
 
 

@@ -133,7 +133,7 @@ def log_of_folder(folder: Path) -> MissionLog:
         raise InputError(
             message("the mission has done nothing yet"), where=str(folder), advice=message("give one that has started")
         )
-    return MissionLog(events=events, where=str(folder))
+    return MissionLog(events=events, where=str(folder), images=folder)
 
 
 def plan_of_files(

@@ -68,5 +68,13 @@ def resume(
         write_plan(review, None, settings)
         events = resume_mission(stored, replace(settings, vehicle=vehicle))
         raise SystemExit(
-            conclude(approved, events, settings, planner=stored.planner, name=stored.id, bundle=stored.bundle)
+            conclude(
+                approved,
+                events,
+                settings,
+                planner=stored.planner,
+                name=stored.id,
+                bundle=stored.bundle,
+                images=stored.folder,
+            )
         )

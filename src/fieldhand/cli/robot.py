@@ -81,6 +81,7 @@ def _lines(profile: RobotProfile) -> list[str]:
     lines = [
         f"{profile.name}: {profile.description}",
         f"  drives {profile.speed_m_s:g} m/s, {profile.width_m:g} m wide, works {profile.standoff_m:g} m from a trunk",
+        *([] if profile.turn_deg_s is None else [f"  turns on the spot at {profile.turn_deg_s:g} degrees/s"]),
         f"  battery {energy.capacity_j / 3.6e6:.2f} kWh, {energy.reserve_percent:g} % kept in reserve;"
         f" warns at {battery.warn:g} %, turns home at {battery.home:g} %, stops at {battery.stop:g} %",
         f"  a leg of d metres costs d·({profile.leg_cost.alpha:g} + Exp({1 - profile.leg_cost.alpha:g}))",
@@ -106,12 +107,17 @@ def _lines(profile: RobotProfile) -> list[str]:
     return lines
 
 
+#: Place of a plant that a camera on each side sees.
+_BESIDE = {"left": "on its left", "right": "on its right", "front": "in front of it", "back": "behind it"}
+
+
 def _cost(profile: RobotProfile, action: Action) -> str:
     """Return what an action takes, and what it measures or covers."""
     implement = action.implement
     if implement is None:
         measures = ", ".join(f"{q} ({profile.quantity[q].unit})" for q in action.measures) or "nothing"
-        return f"{action.duration_s:g} s, {action.energy_j:g} J; measures {measures}"
+        camera = "" if action.camera is None else f"; with the plant {_BESIDE[action.camera.side]}"
+        return f"{action.duration_s:g} s, {action.energy_j:g} J; measures {measures}{camera}"
     wide = "" if implement.width_m is None else f", {implement.width_m:g} m wide"
     tank = "" if implement.tank is None else f", tank for {implement.tank:g}"
     side = {"both": "on either side", "under": "below the robot"}.get(implement.side, f"on its {implement.side} side")

@@ -93,7 +93,8 @@ def run_mission(draft: MissionDraft, settings: RunSettings) -> int:
     if settings.vehicle is not None:
         check_start(site_and_robot, review, settings.vehicle, confirm=settings.approval.confirm, display=display)
     events, name = _carry_out(approved, draft, settings)
-    return conclude(approved, events, settings, planner=draft.planner, name=name, bundle=draft.bundle)
+    stored = settings.folder.parent / name if settings.folder is not None and name else None
+    return conclude(approved, events, settings, planner=draft.planner, name=name, bundle=draft.bundle, images=stored)
 
 
 def write_plan(review: mission.Review, document: bytes | None, settings: RunSettings) -> None:
@@ -114,13 +115,16 @@ def _carry_out(
     from fieldhand.execution.drivers.simulation.vehicle import simulation
 
     site, robot, seed = approved.site, approved.robot, settings.seed
-    with _open_logs(site, robot, settings, ()) as emit:
+    with _open_logs(site, robot, settings, ()) as (emit, images_in):
         if settings.folder is not None:
             stored = _begin(approved, draft, settings, settings.folder)
+            images_in(stored.folder)
             result = missions.carry_out(stored, speed=settings.speed, vehicle=settings.vehicle, emit=emit)
             return result.events, stored.id
         vehicle = settings.vehicle or simulation(site, robot, settings.world, seed=seed, speed=settings.speed)
-        return mission.carry_out(approved, vehicle=vehicle, seed=seed, emit=emit).events, ""
+        folder = settings.outputs.output
+        images_in(folder)
+        return mission.carry_out(approved, vehicle=vehicle, seed=seed, emit=emit, images=folder).events, ""
 
 
 def _begin(
@@ -151,15 +155,22 @@ def _begin(
 def resume_mission(stored: missions.StoredMission, settings: RunSettings) -> tuple[Event, ...]:
     """Carry out the rest of a stored mission, as after a power cut, and return all its events."""
     before = missions.events_of(stored.folder)
-    with _open_logs(stored.site, stored.robot, settings, before) as emit:
+    with _open_logs(stored.site, stored.robot, settings, before, stored.folder) as (emit, _):
         return missions.carry_out(stored, speed=settings.speed, vehicle=settings.vehicle, emit=emit).events
 
 
 @contextmanager
 def _open_logs(
-    site: Site, robot: RobotProfile, settings: RunSettings, before: Sequence[Event]
-) -> Iterator[Callable[[Event], None]]:
-    """Open the event logs, write the earlier events to them, and yield a function that logs and prints each event."""
+    site: Site, robot: RobotProfile, settings: RunSettings, before: Sequence[Event], images: Path | None = None
+) -> Iterator[tuple[Callable[[Event], None], Callable[[Path | None], None]]]:
+    """Open the event logs and write the earlier events to them.
+
+    Args:
+        images: Folder of the mission with its images, if it is known already.
+
+    Yields:
+        A function that logs and prints each event, and one that sets the folder of the images.
+    """
     from fieldhand.execution.event_log import EventLog
     from fieldhand.wording.events import EventText
 
@@ -171,10 +182,12 @@ def _open_logs(
         logs: list[Callable[[Event], None]] = [
             stack.enter_context(EventLog(path)) for path in paths if path is not None
         ]
+        logs_with_images: list[McapLog] = []
         if outputs.mcap is not None:
             from fieldhand.exchange.mcap import McapLog
 
-            logs.append(stack.enter_context(McapLog(outputs.mcap, tell=event_text.line, site=site)))
+            logs_with_images.append(McapLog(outputs.mcap, tell=event_text.line, site=site, images=images))
+            logs += [stack.enter_context(recording) for recording in logs_with_images]
 
         def emit(event: Event) -> None:
             for log in logs:
@@ -183,10 +196,14 @@ def _open_logs(
             if line and not display.json:
                 show.out.print(line)
 
+        def images_in(folder: Path | None) -> None:
+            for recording in logs_with_images:
+                recording.images = folder
+
         for event in before:
             for log in logs:
                 log(event)
-        yield emit
+        yield emit, images_in
 
 
 def _print_beginning(before: Sequence[Event], display: DisplayOptions) -> None:
@@ -209,6 +226,7 @@ def conclude(
     planner: str,
     name: str = "",
     bundle: Bundle | None = None,
+    images: Path | None = None,
 ) -> int:
     """Judge a mission that was carried out, write its report, and print the result.
 
@@ -219,6 +237,7 @@ def conclude(
         planner: Name of the planner of the Task.
         name: Name under which the mission is stored; empty if it is not.
         bundle: Signed mission; None if it was approved at the command line.
+        images: Folder of the mission with its images; None for the output folder.
 
     Returns:
         Exit status, as for :func:`run_mission`.
@@ -234,6 +253,7 @@ def conclude(
         history=settings.history,
         at=datetime.now(UTC),
         bundle=bundle,
+        images=images,
     )
     if conclusion.history_error:
         show.note(conclusion.history_error, display.language)

@@ -10,14 +10,14 @@ import typer
 from fieldhand.cli.links import LinkOptions, MissionOfRobot, RetrySeedOption, UrlArgument
 from fieldhand.cli.option_groups import grouped
 from fieldhand.cli.options import JsonOption
-from fieldhand.cli.outputs import to_file
+from fieldhand.cli.outputs import to_file, to_folder
 
 if TYPE_CHECKING:
     from fieldhand.delivery.json_models import EventLine
     from fieldhand.errors import UnreachableError
 
 
-@grouped("url mission once events token_file ca pin insecure seed json")
+@grouped("url mission once events images token_file ca pin insecure seed json")
 def watch(
     url: UrlArgument,
     link: LinkOptions,
@@ -25,6 +25,10 @@ def watch(
     once: Annotated[bool, typer.Option("--once", help="Fetch the events so far, without waiting.")] = False,
     events: Annotated[
         Path | None, typer.Option("--events", callback=to_file, help="Write the event log (JSON lines) here, whole.")
+    ] = None,
+    images: Annotated[
+        Path | None,
+        typer.Option("--images", callback=to_folder, help="Fetch the images of its captures into this folder."),
     ] = None,
     seed: RetrySeedOption = None,
     json: JsonOption = False,
@@ -39,6 +43,7 @@ def watch(
 
     from fieldhand.cli import show
     from fieldhand.cli.links import find_mission, state_line
+    from fieldhand.delivery.fetch_images import fetch_images, images_in
     from fieldhand.delivery.follow_mission import follow
     from fieldhand.delivery.json_models import LONGEST_WAIT_S
     from fieldhand.execution.event_log import EventLog
@@ -52,7 +57,11 @@ def watch(
         summary = find_mission(client, mission)
         log = None if events is None else stack.enter_context(EventLog(events))
 
+        lines: list[str] = []
+
         def take(event: EventLine) -> None:
+            if images is not None:
+                lines.append(event.line)
             if log is not None:
                 log.line(event.line)
             if not json:
@@ -62,6 +71,12 @@ def watch(
             show.out.print(state_line(summary))
         rng = random.Random(seed)  # noqa: S311
         last = follow(client, summary.bundle, take=take, once=once, wait_s=LONGEST_WAIT_S, lost=lost, rng=rng)
+        if images is not None:
+            fetched = fetch_images(client, summary.bundle, images_in(lines), images)
+            for problem in fetched.problems:
+                show.note(problem)
+            if not json:
+                show.out.print(f"{fetched.count} images in {images / 'images'}")
     if json:
         show.print_json(last.model_dump())
     else:

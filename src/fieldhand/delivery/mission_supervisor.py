@@ -211,6 +211,10 @@ class MissionSupervisor:
 
     # --- tell ----------------------------------------------------------------------------------------------------
 
+    def image_of(self, received: ReceivedMission, name: str) -> bytes | None:
+        """Return the bytes of an image of a mission; None if there is no such image."""
+        return missions.image_of(self._mission_store.folder_of(received), name)
+
     def give_command(
         self, received: ReceivedMission, command: AgentCommand, reason: str, *, wait: Callable[[], bool] = lambda: False
     ) -> bool:

@@ -22,6 +22,8 @@ A = TypeVar("A", bound=BaseModel)
 
 #: Largest size of a response, in bytes; 500 events are far smaller.
 MOST_ANSWER = 16_000_000
+#: Largest image in bytes.
+MOST_IMAGE = 300_000_000
 #: Statuses after which a later attempt may succeed: missing token, timeout, too many requests, full disk.
 _LATER = frozenset({401, 408, 429, 500, 502, 503, 504, 507})
 _CHUNK = 65_536
@@ -154,10 +156,21 @@ class RobotClient:
             raise DeliveryError(f"an event after number {after} is missing", where=self._at)
         return found
 
+    def image(self, sha256: str, name: str) -> bytes:
+        """Return the bytes of an image of a mission.
+
+        Raises:
+            DeliveryError: There is no such image.
+        """
+        status, body = self._send("GET", f"/agent/missions/{sha256}/images/{name}", MOST_IMAGE)
+        if status != 200:
+            raise self._problem(status, body)
+        return body
+
     def _ask(self, model: type[A], method: str, path: str, **more: object) -> A:
         return self._read(model, *self._send(method, path, **more))
 
-    def _send(self, method: str, path: str, **more: object) -> tuple[int, bytes]:
+    def _send(self, method: str, path: str, most: int = MOST_ANSWER, /, **more: object) -> tuple[int, bytes]:
         """Return status and body of the response to a request."""
         import httpx
 
@@ -166,7 +179,7 @@ class RobotClient:
                 body = bytearray()
                 for chunk in answer.iter_bytes():
                     body += chunk
-                    if len(body) > MOST_ANSWER:
+                    if len(body) > most:
                         raise DeliveryError("the answer is too large", where=self._at)
                 return answer.status_code, bytes(body)
         except httpx.TransportError as error:

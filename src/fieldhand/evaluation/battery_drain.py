@@ -45,6 +45,9 @@ class BatteryDrain:
     def __init__(self, robot: RobotProfile) -> None:
         self._model = self.robot = robot
         self.factor = 1.0
+        self._last = Spent()
+        #: What may still be counted as used while nobody looked, what was, and the model when somebody looked again.
+        self._standing = self._stood = self._back_at = 0.0
         self._seen: list[tuple[float, float]] = [(0.0, 0.0)]
         self._step = SPAN
 
@@ -54,7 +57,7 @@ class BatteryDrain:
         The larger of two rates counts: that of the whole mission, and the highest rate of any span up to now in which
         the charge fell far enough to be significant, less one step of the meter.
         """
-        modelled = self._model.percent(spent.metres, spent.seconds - spent.docked_s, spent.joules)
+        modelled = self._modelled(spent) + self._standing_percent(spent)
         self._remember(modelled, spent.percent)
         pace = max(_damped(modelled, spent.percent), self._latest(modelled, spent.percent))
         factor = max(1.0, 1.0 + CAUTION * (pace - 1.0))
@@ -62,6 +65,24 @@ class BatteryDrain:
             self.factor = factor
             energy = self._model.energy
             self.robot = replace(self._model, energy=replace(energy, capacity_j=energy.capacity_j / factor))
+
+    def _modelled(self, spent: Spent) -> float:
+        return self._model.percent(spent.metres, spent.seconds - spent.docked_s, spent.joules)
+
+    def _standing_percent(self, spent: Spent) -> float:
+        """Return what the robot has used while the program was dead: no more than it uses standing, if it was on.
+
+        The charge is read a moment later, so the fall counts until the model predicts :data:`SPAN` more.
+        """
+        if spent.absent_s > self._last.absent_s:
+            self._standing = self._model.percent(0.0, spent.absent_s - self._last.absent_s)
+            self._back_at = self._modelled(spent)
+        elif self._standing and self._modelled(spent) > self._back_at + SPAN:
+            self._standing = 0.0
+        fallen = spent.percent - self._last.percent - (self._modelled(spent) - self._modelled(self._last))
+        used = min(self._standing, max(0.0, fallen))
+        self._standing, self._stood, self._last = self._standing - used, self._stood + used, spent
+        return self._stood
 
     def _remember(self, modelled: float, spent: float) -> None:
         last_model, last_spent = self._seen[-1]

@@ -178,8 +178,9 @@ class BudgetGuard:
             return self._go(state, visit, on)
         safe = budget.accepted if lasts or ahead is None else self._safe(state, ahead)
         home_now = route_cost([budget.length(here, budget.home(here))])
-        for way, chances in ((way_on, on), (short, there)):
-            if way is not None and self._may(state, way, chances, safe, home_now):
+        # A visit and the way home may be riskier than what is accepted for the whole mission; all that is left may not.
+        for way, chances, most in ((way_on, on, np.minimum(safe, budget.accepted)), (short, there, safe)):
+            if way is not None and self._may(state, way, chances, most, home_now):
                 return self._go(state, visit, chances)
         reason = running_short(budget, state, RoundTrip(way=short, to=visit.place), there)
         return Verdict(go=False, reason=self._and_the_battery(reason), chance_short=float(there.max()))

@@ -60,9 +60,9 @@ class RechargeDecider:
         if not rules.must_charge(charge, needed, ends=visit.ends) or self._is_safer_to_finish(state, visit, after):
             return RechargeDecision(decision="go")
         first = self._needed(rules, rules.charger, visit, after, charged=True)
-        able = state.charges < rules.at_most and bool(rules.gains(charge)) and first <= rules.until_percent
+        able = state.charges < rules.at_most and bool(rules.gains(charge)) and first <= rules.most_percent
         if able and math.isfinite(self._metres(here, rules.charger)):
-            until = float(rules.target(math.inf if after is None else self._whole(rules, visit, after), charge))
+            until = self._target(rules, visit, after, charge)
             return RechargeDecision(decision="charge", why=_why(rules, charge, needed), charge_to=until)
         if permitted or charge >= self._needed(rules, here, visit, after, charged=True):
             return RechargeDecision(decision="go")  # charging would be safer, or was only wished for
@@ -82,7 +82,8 @@ class RechargeDecider:
         if rules is None or charging is None:
             return True
         here, robot = state.context.here, rules.robot
-        full_s = float(charging.seconds(state.charge_percent, rules.until_percent, robot.energy.capacity_j))
+        until = self._target(rules, visit, None, state.charge_percent)
+        full_s = float(charging.seconds(state.charge_percent, until, robot.energy.capacity_j))
         work = Work(seconds=charging.around_s + full_s, joules=charging.around_j - full_s * robot.energy.idle_w)
         legs = (
             self._metres(here, rules.charger),
@@ -106,7 +107,10 @@ class RechargeDecider:
     def is_possible(self, visit: Visit) -> bool:
         """Return True if a visit is possible with a charged battery."""
         rules = self._budget.recharge
-        return rules is None or self._needed(rules, rules.charger, visit, None, charged=True) <= rules.until_percent
+        if rules is None:
+            return True
+        way = self._there_and_back(rules, visit)
+        return way is not None and rules.optional_for(way) <= rules.most_percent
 
     def _is_safer_to_finish(self, state: MissionState, visit: Visit, after: RouteCost | None) -> bool:
         """Return True if the way to the charger is likelier to stop the robot than everything that is left."""
@@ -134,12 +138,22 @@ class RechargeDecider:
             needed = min(needed, rules.needed_for(way, charged=charged, ends=visit.ends))
         return needed
 
-    def _whole(self, rules: RechargeRules, visit: Visit, after: RouteCost) -> float:
-        """Return the charge that suffices from the charger for everything that is left."""
-        there = self._metres(rules.charger, visit.place)
-        if not math.isfinite(there):
-            return math.inf
-        return rules.needed_for(route_cost([there], self._budget.slower(visit, there, rules.charger)) + after)
+    def _target(self, rules: RechargeRules, visit: Visit, after: RouteCost | None, charge: float) -> float:
+        """Return up to what percent to charge before a visit."""
+        there, rest, certain = self._metres(rules.charger, visit.place), math.inf, math.inf
+        if after is not None and math.isfinite(there):
+            whole = route_cost([there], self._budget.slower(visit, there, rules.charger)) + after
+            rest, certain = rules.needed_for(whole), rules.certain_for(whole)
+        way = self._there_and_back(rules, visit)
+        far = math.inf if way is None else rules.certain_for(way, docks=True)
+        return float(rules.target(rest, charge, rules.far(far, certain)))
+
+    def _there_and_back(self, rules: RechargeRules, visit: Visit) -> RouteCost | None:
+        """Return a visit and the ways from the charger to it and back; None if there are none."""
+        there, back = self._metres(rules.charger, visit.place), self._metres(visit.end, rules.charger)
+        if not math.isfinite(there + back):
+            return None
+        return route_cost([there, back], visit.work + self._budget.slower(visit, there, rules.charger))
 
     def _metres(self, a: Place, b: Place) -> float:
         try:

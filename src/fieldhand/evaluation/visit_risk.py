@@ -22,8 +22,11 @@ from fieldhand.site.model import Place
 Floats = NDArray[np.float64]
 
 _DRAWS = 2000
-#: Fractions of the accepted probability that are tried.
-_PARTS = np.geomspace(1.0, 0.02, 24)
+#: Multiples of the accepted probability that are tried. Few missions come to a visit that is riskier than what is
+#: accepted for all of them, so such a visit may be made.
+_PARTS = np.geomspace(5.0, 0.02, 34)
+#: Highest probability accepted for one visit: beyond it, going on fails more often than not.
+_EVEN = 0.5
 #: Number of visits before the first one out of reach for which the way home is computed.
 _LOOKED_AT = 200
 #: Distance beyond which no robot comes, as a multiple of the metres left.
@@ -62,9 +65,10 @@ class VisitRisk:
         legs, homes = self._lengths()
         factors = np.maximum(self.costs.draw(rng, _DRAWS * (2 * len(legs))), 0.0).reshape(2, len(legs), _DRAWS)
         for part in _PARTS:
-            failed = self._failed(part * accepted, legs, homes, factors)
+            chances = np.minimum(part * accepted, np.maximum(_EVEN, accepted))
+            failed = self._failed(chances, legs, homes, factors)
             if (failed <= (1.0 - OPTIONAL_SHARE) * accepted).all():
-                return np.asarray(part * accepted)
+                return np.asarray(chances)
         return np.asarray(_PARTS[-1] * accepted)
 
     def _lengths(self) -> tuple[Floats, Floats]:

@@ -24,9 +24,10 @@ from fieldhand.execution.open_goals import OpenCapture, OpenDrive, OpenManeuver,
 from fieldhand.execution.recorded_inputs import RecordedInputs
 from fieldhand.execution.time_of_day import TimeOfDay
 from fieldhand.forecast.conditions import ConditionInputs
+from fieldhand.forecast.headings import cameras_of, way_in
 from fieldhand.forecast.mission_state import MissionState, Spent
 from fieldhand.forecast.optional_visits import OptionalVisits
-from fieldhand.forecast.recharge_rules import charge_target, charger_of
+from fieldhand.forecast.recharge_rules import charge_target, charger_of, farthest_target
 from fieldhand.forecast.resource_limits import speed_of
 from fieldhand.forecast.slow_ground import slow_ground
 from fieldhand.forecast.visit_order import start_place
@@ -36,6 +37,7 @@ from fieldhand.places.reading_series import ReadingSeries, TakenReading
 from fieldhand.places.resolution import resolve, resolve_one
 from fieldhand.places.selector import Selector
 from fieldhand.robot.model import InDoubtPolicy, RobotProfile
+from fieldhand.site.bearings import first_heading
 from fieldhand.site.blockages import Blockages
 from fieldhand.site.drives import Drive, Drives
 from fieldhand.site.model import Place, Site
@@ -51,6 +53,7 @@ from fieldhand.task.results import (
     Driving,
     Event,
     Faulted,
+    ImageLost,
     InDoubt,
     MissionStatus,
     Resumed,
@@ -145,6 +148,7 @@ class ActiveMission:
         self._cuts = 0
         self._open: OpenDrive | OpenCapture | OpenManeuver | None = None
         self._recorded: Progress | None = None
+        self._lost_images: set[str] = set()
         self.events: list[Event] = []
         self.here = start_place(drives)
         self.standing = self._stands()
@@ -154,6 +158,7 @@ class ActiveMission:
         self.readings: dict[str, Mapping[str, float]] = {}
         self.series: dict[str, ReadingSeries] = {}
         self._collected = collected(task.composition.plan)
+        self._cameras = cameras_of(task.composition.plan, robot)
         self.run = PlanRun(task.composition.plan)
         self.travelled_m = 0.0
         self.driven: tuple[tuple[float, float], ...] = ()
@@ -203,7 +208,14 @@ class ActiveMission:
             charged += max(0.0, charge - self._docked_at)
             docked_s += self.clock.now() - self._docked_since
         percent = self._full - charge + charged
-        return Spent(metres=metres, seconds=self.t, percent=percent, joules=joules, docked_s=docked_s)
+        return Spent(
+            metres=metres,
+            seconds=self.t,
+            percent=percent,
+            joules=joules,
+            docked_s=docked_s,
+            absent_s=self.inputs.absent_s,
+        )
 
     @property
     def drives(self) -> Drives:
@@ -258,28 +270,30 @@ class ActiveMission:
         """
         return resolve_one(selector, self.site, self._context(self.here))
 
-    def reached(self, place: Place) -> Place:
-        """Return a place with the stand that a drive would lead to now, or the current place if the robot is there.
+    def reached(self, place: Place, node: str = "") -> Place:
+        """Return a place with the stand that a drive of a node would lead to now, or the current place if the robot is
+        there.
 
         Raises:
             DriveFault: There is no way to it.
         """
         if self.standing.serves(place):
             return self.standing
-        return self.way_to(place).end
+        return self.way_to(place, node).end
 
-    def way_to(self, place: Place) -> Drive:
-        """Return the drive to a place, or to its other side if obstacles leave no other.
+    def way_to(self, place: Place, node: str = "") -> Drive:
+        """Return the drive of a node to a place, or to its other side if obstacles leave no other.
 
         Raises:
             DriveFault: There is no way.
         """
+        camera = self._cameras.get(node)
         try:
-            return self.drives.between(self.standing, place)
+            return way_in(self.drives, self.robot, self.standing, place, camera)
         except DriveFault:
             if not self.blockages.stretches or place.stand is None:
                 raise
-            return self.drives.between(self.standing, dataclasses.replace(place, stand=None))
+            return way_in(self.drives, self.robot, self.standing, dataclasses.replace(place, stand=None), camera)
 
     def state(self) -> MissionState:
         """Return the state for the guard's decisions; its ``here`` is the robot's position, from which it would drive
@@ -351,10 +365,19 @@ class ActiveMission:
         Raises:
             DriveFault, PlaceError: There is no way to the place.
         """
-        goal = drive_goal(self.site, self.way_to(place), self._speed_m_s())
+        way, camera = self.way_to(place, node), self._cameras.get(node)
+        goal = drive_goal(self.drives, self.robot, way, self._speed_m_s(), camera)
+        if (along := self._begin_of_work(node)) is not None:
+            goal = dataclasses.replace(goal, heading_deg=along)
         self._emit_driving(node, dataclasses.replace(goal, speed_m_s=self.controller.first_speed_m_s(goal)))
         self._open = OpenDrive(node=node, goal=goal)
         self.controller.start(goal)
+
+    def _begin_of_work(self, node: str) -> float | None:
+        """Return the heading in which the work begins to which a node drives now; None if it drives to a place."""
+        frame = self.run.frame if self.run.frames else None
+        stretch = getattr(frame.tour, "current", None) if frame is not None and frame.node.id == node else None
+        return first_heading(stretch.points) if isinstance(stretch, Stretch) else None
 
     def _speed_m_s(self) -> float:
         """Return the speed limit of a drive that begins now."""
@@ -443,7 +466,8 @@ class ActiveMission:
     def start_capture(self, node: str, action: str, parameters: Mapping[str, str | float], number: int) -> None:
         """Start the ``number``-th attempt at a capture."""
         self._open = OpenCapture(node=node, action=action, number=number)
-        self.controller.start(ActionGoal(action=action, place=self.here, parameters=parameters))
+        goal = ActionGoal(action=action, place=self.here, parameters=parameters, node=node, attempt=number)
+        self.controller.start(goal)
 
     # --- charging ------------------------------------------------------------------------------------------------
 
@@ -456,6 +480,11 @@ class ActiveMission:
     def charge_target(self) -> float:
         """The charge in percent up to which the mission charges."""
         return charge_target(self.task.constraints, self.robot)
+
+    @property
+    def farthest_target(self) -> float:
+        """The charge in percent up to which it charges when a drive was broken off for it."""
+        return farthest_target(self.task.constraints, self.robot)
 
     def start_maneuver(self, node: str, action: str, number: int) -> None:
         """Start the ``number``-th attempt at docking or undocking."""
@@ -568,7 +597,12 @@ class ActiveMission:
         if self.inputs.cuts != self._cuts:
             self._cuts = self.inputs.cuts
             at = self.observation.position
-            self.emit(Resumed(t=self.t, lat=at.lat, lon=at.lon, charge_percent=self.charge_percent()))
+            resumed = Resumed(t=self.t, lat=at.lat, lon=at.lon, charge_percent=self.charge_percent())
+            if (driven := self.inputs.unobserved) is not None:
+                resumed = dataclasses.replace(
+                    resumed, driven_m=driven.metres, driven_s=driven.seconds, driven_by=driven.by
+                )
+            self.emit(resumed)
 
     def emit_arrived(self, node: str, place: Place, leg_m: float) -> None:
         """Record that the robot has arrived at a place."""
@@ -601,6 +635,7 @@ class ActiveMission:
                 planned_m=goal.length_m,
                 path=goal.path_degrees,
                 speed_m_s=goal.speed_m_s,
+                heading_deg=goal.heading_deg,
             )
         )
 
@@ -667,7 +702,7 @@ class ActiveMission:
 
     def _end_capture(self, open_: OpenCapture, progress: Progress) -> Progress:
         """Record the end of a capture; return its progress, which is failed if a reading is implausible."""
-        action, here = self.robot.action[open_.action], self.here
+        action, here, at = self.robot.action[open_.action], self.here, self.observation.position
         self.action_j += joules_done(action, progress)
         if progress.state in ("cancelled", "cut_off"):
             return progress  # cancelled without effect, or in doubt, which is recorded already
@@ -675,8 +710,13 @@ class ActiveMission:
             why = (unusable(self.robot, q, progress.readings.get(q)) for q in action.measures)
             if what := next(filter(None, why), ""):
                 progress = dataclasses.replace(progress, state="failed", fault="failed", readings={}, what=what)
+        lost = [file for file in progress.files if not file.file]
+        if progress.state == "succeeded" and lost and not action.measures and len(lost) == len(progress.files):
+            progress = dataclasses.replace(progress, state="failed", fault="failed", what=lost[0].what)
         done = progress.state == "succeeded"
         self._done += done
+        for what in dict.fromkeys(file.what for file in lost):
+            self._record_lost_image(open_, what)
         self.emit(
             Acted(
                 t=self.t,
@@ -693,9 +733,24 @@ class ActiveMission:
                 units={q: self.robot.quantity[q].unit for q in action.measures} if done else {},
                 what=progress.what,
                 charge_percent=self.charge_percent(),
+                images=progress.files,
+                robot_lat=at.lat,
+                robot_lon=at.lon,
+                heading_deg=at.heading_deg,
             )
         )
         return progress
+
+    def _record_lost_image(self, open_: OpenCapture, what: str) -> None:
+        """Record that images are not saved, once for each reason."""
+        if what in self._lost_images:
+            return
+        self._lost_images.add(what)
+        self.emit(
+            ImageLost(
+                t=self.t, node=open_.node, action=open_.action, kind=self.here.kind, place=self.here.id, what=what
+            )
+        )
 
     def _context(self, here: Place) -> Context:
         return Context(here=here, visited=tuple(self.visited), bound=dict(self.bound), series=dict(self.series))

@@ -14,9 +14,12 @@ from collections.abc import Callable
 from fieldhand.errors import FieldhandError, OutputError
 from fieldhand.execution.drivers.protocol import AT_M, ActionGoal, DriveGoal, Progress
 from fieldhand.execution.recorded_inputs import RecordedInputs
+from fieldhand.forecast.headings import NEAR_DEG, facing, way_in
 from fieldhand.forecast.slow_ground import NO_SLOW_GROUND, SlowGround, rests
 from fieldhand.language import message
+from fieldhand.robot.camera import Camera
 from fieldhand.robot.model import InDoubtPolicy, RobotProfile
+from fieldhand.site.bearings import apart_deg, last_heading
 from fieldhand.site.drives import Drive, Drives
 from fieldhand.site.model import Place, Site
 from fieldhand.site.working.stretch import Stretch
@@ -78,6 +81,8 @@ class DriveController:
         self._result: Progress | None = None
         self.reached_m = 0.0
         self._part_from_m = 0.0
+        #: Heading at which the last drive ended, as it was commanded; None if it is unknown.
+        self._heading_deg: float | None = None
 
     def start(self, goal: DriveGoal | ActionGoal) -> None:
         """Begin a goal, after the pause if the mission is paused."""
@@ -166,12 +171,16 @@ class DriveController:
                 self._begin_stretch(goal)
             elif isinstance(goal, DriveGoal):
                 begins_here = self._is_at(goal.path_m[0])
-                self._drive(goal if begins_here else self._way_to(goal.place, goal.speed_m_s), goal)
+                self._drive(goal if begins_here else self._way_to(goal.place, goal.speed_m_s, goal.faces), goal)
             elif goal is not None:
                 self._strayed = self._strayed and not self._inputs.observation.position.is_at(goal.place)
-                self._approaching = self._strayed
+                camera = self._robot.doable[goal.action].camera
+                turn = None if self._strayed else self._turn_for(goal.place, camera)
+                self._approaching = self._strayed or turn is not None
                 if self._strayed:
-                    self._drive(self._way_to(goal.place, self._speed()), goal)
+                    self._drive(self._way_to(goal.place, self._speed(), camera), goal)
+                elif turn is not None:
+                    self._drive(turn, goal, silent=True)
                 else:
                     self._inputs.start(goal)
         except OutputError:
@@ -181,11 +190,33 @@ class DriveController:
             return
         self._under_way = True
 
-    def _drive(self, way: DriveGoal, goal: DriveGoal | ActionGoal) -> None:
+    def _turn_for(self, place: Place, camera: Camera | None) -> DriveGoal | None:
+        """Return the turn on the spot that a camera needs at a place; None if the robot has the heading already."""
+        if camera is None or self._robot.turn_deg_s is None:
+            return None
+        faces = facing(self._ways(), self._robot, place, camera, self._heading_deg)
+        if faces.sees is None or faces.heading_deg is None:
+            return None
+        if self._heading_deg is not None and apart_deg(self._heading_deg, faces.heading_deg) <= NEAR_DEG:
+            return None
+        here = place.stand or place.xy
+        (degrees,) = self._site.projection.lat_lon([here])
+        return DriveGoal(
+            place=place,
+            path_m=(here, here),
+            path_degrees=(degrees, degrees),
+            length_m=0.0,
+            speed_m_s=self._speed(),
+            heading_deg=faces.heading_deg,
+            faces=camera,
+        )
+
+    def _drive(self, way: DriveGoal, goal: DriveGoal | ActionGoal, *, silent: bool = False) -> None:
         """Start a way, or its first part if the speed changes on it."""
+        self._heading_deg = None
         part, self._rest = self._first_part(way)
         self._part, speed = part, min(part.speed_m_s, self.limit_m_s)
-        if way is not goal:
+        if way is not goal and not silent:
             self._on_restart(dataclasses.replace(way, speed_m_s=speed))
         self._inputs.start(dataclasses.replace(part, speed_m_s=speed) if speed != part.speed_m_s else part)
 
@@ -222,6 +253,9 @@ class DriveController:
 
     def _conclude(self, goal: DriveGoal | ActionGoal, progress: Progress) -> None:
         """Conclude the mission's goal, or prepare its next part, after a driver goal has ended."""
+        part = self._part
+        if progress.state == "succeeded" and part is not None:
+            self._heading_deg = last_heading(part.path_m) if part.heading_deg is None else part.heading_deg
         no_more = self._cancelled or self._inputs.observation.stopped is not None
         cut = progress.state == "cut_off"
         if progress.state != "succeeded":
@@ -300,14 +334,15 @@ class DriveController:
             seconds=self._before.seconds + progress.seconds,
         )
 
-    def _way_to(self, place: Place, speed_m_s: float) -> DriveGoal:
-        """Return the drive to a place from where the robot is.
+    def _way_to(self, place: Place, speed_m_s: float, camera: Camera | None = None) -> DriveGoal:
+        """Return the drive to a place from where the robot is, for a picture of a camera if one is given.
 
         Raises:
             DriveFault: There is no way.
         """
         here = self._inputs.observation.position.as_place()
-        return drive_goal(self._site, self._ways().between(here, place), speed_m_s)
+        ways = self._ways()
+        return drive_goal(ways, self._robot, way_in(ways, self._robot, here, place, camera), speed_m_s, camera)
 
 
 def rest_of(site: Site, goal: DriveGoal, from_m: float) -> DriveGoal:
@@ -345,6 +380,8 @@ def cut_way(site: Site, way: DriveGoal, at_m: float, speed_m_s: float) -> tuple[
             length_m=first.length_m,
             speed_m_s=speed_m_s,
             work=None if way.work is None else dataclasses.replace(way.work, on=first.on),
+            heading_deg=None,
+            faces=None,
         ),
         dataclasses.replace(
             way, path_m=rest, path_degrees=site.projection.lat_lon(rest), length_m=max(0.0, way.length_m - at_m)
@@ -352,13 +389,18 @@ def cut_way(site: Site, way: DriveGoal, at_m: float, speed_m_s: float) -> tuple[
     )
 
 
-def drive_goal(site: Site, drive: Drive, speed_m_s: float) -> DriveGoal:
-    """Return the goal of a drive."""
+def drive_goal(
+    drives: Drives, robot: RobotProfile, drive: Drive, speed_m_s: float, camera: Camera | None = None
+) -> DriveGoal:
+    """Return the goal of a drive, at whose end the robot stands along the aisle, or so that a camera sees the plant."""
     corners = tuple((float(x), float(y)) for x, y in drive.points)
+    faces = facing(drives, robot, drive.end, camera, drives.heading_after(drive))
     return DriveGoal(
         place=drive.end,
         path_m=corners,
-        path_degrees=site.projection.lat_lon(corners),
+        path_degrees=drives.site.projection.lat_lon(corners),
         length_m=drive.length_m,
         speed_m_s=speed_m_s,
+        heading_deg=faces.heading_deg,
+        faces=camera if faces.sees else None,
     )

@@ -83,7 +83,7 @@ class ForEachVisits:
             self.left = list(mission.visits.of_places(node, ordered, mission.state().context))
         else:
             places, cut_off = self._parted(places)
-            ordered = visits_in_order(node, mission.drives, mission.standing, places, self._home())
+            ordered = visits_in_order(node, mission.drives, mission.standing, places, self._home(), mission.robot)
             self.left = [mandatory_visit(mission, place, node.body) for place in ordered]
             self.cut_off = [mandatory_visit(mission, place, node.body) for place in cut_off]
         ids = tuple(place.id for place in (*ordered, *cut_off))

@@ -82,7 +82,7 @@ def drive(
         if progress.state == "succeeded":
             return
         if progress.state == "cancelled" and broken_off:
-            raise ChargeFirst(mission.recharge_due, mission.charge_target)
+            raise ChargeFirst(mission.recharge_due, mission.farthest_target)
         why = progress.what or message("it failed", context="log")
         what = message("drive to {place}: {what}", context="log", place=_named(place), what=why)
         if progress.state == "cancelled":

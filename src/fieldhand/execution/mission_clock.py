@@ -44,6 +44,10 @@ class MissionClock:
         self._now = max(self._now, self._ahead + self._source.now())
         return self._now
 
+    def skip(self, seconds: float) -> None:
+        """Count seconds that have passed while nobody looked."""
+        self._now, self._ahead = self._now + seconds, self._ahead + seconds
+
     def set(self, now: float) -> None:
         """Set the time to a recorded one."""
         self._now, self._ahead = now, now - self._source.now()

@@ -15,6 +15,7 @@ from fieldhand.execution.event_monitor import EventMonitor, WatchState
 from fieldhand.execution.event_wait import wait_until_over
 from fieldhand.execution.goals import drive
 from fieldhand.execution.guard import Failsafe, Guard, NoFailsafe
+from fieldhand.execution.images.folder import ImageFolder
 from fieldhand.execution.interrupts import ctrl_c_as_request
 from fieldhand.execution.journal.records import InputLog
 from fieldhand.execution.limit_monitor import LimitMonitor
@@ -75,6 +76,7 @@ def run(
     failsafe: Failsafe | None = None,
     log: InputLog | None = None,
     simulated: bool = False,
+    images: ImageFolder | None = None,
 ) -> Result:
     """Carry out a mission. Its last event is always ``Ended``, whatever happens.
 
@@ -94,6 +96,7 @@ def run(
         log: Records inputs, so that the mission can be resumed after a power cut. Inputs that it holds already are
             replayed first. It receives the events instead of ``emit``.
         simulated: True if the driver is a simulation; resuming replays the mission to a new one.
+        images: Saves the images of captures; None to save none.
 
     Raises:
         NotApprovedError: Site or profile is not the approved one; nothing was done.
@@ -117,6 +120,7 @@ def run(
             log=log,
             simulated=simulated,
             watched=watched_events(authorized.task.composition.watches),
+            images=images,
         )
         return MissionRunner(authorized.task, site, robot, inputs).run()
 

@@ -119,7 +119,7 @@ class PlanExecutor:
         while True:
             try:
                 if moves and self.mission.recharge_due:
-                    raise ChargeFirst(self.mission.recharge_due, self.mission.charge_target)
+                    raise ChargeFirst(self.mission.recharge_due, self.mission.farthest_target)
                 return (yield from self._answer(request))
             except ChargeFirst as first:
                 yield from self._charge(first.why, first.until_percent)
@@ -222,7 +222,7 @@ class PlanExecutor:
         place = mission.resolve_one(selector)
         if not mission.is_at(place) and mission.standing != place:
             yield from wait_for_way(mission, node.id, place)
-        self.place = there = mission.reached(place)
+        self.place = there = mission.reached(place, node.id)
         return there
 
     def _drive(self, request: instructions.DriveTo) -> Generator[None, None, Place]:

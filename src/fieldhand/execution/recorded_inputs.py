@@ -28,11 +28,14 @@ from fieldhand.execution.drivers.protocol import (
     DriveGoal,
     Driver,
     EventSource,
-    Position,
+    Odometer,
     Progress,
     SharedNavigation,
 )
 from fieldhand.execution.guard import Failsafe, Guard
+from fieldhand.execution.images.course import Course
+from fieldhand.execution.images.folder import ImageFolder, save_image
+from fieldhand.execution.images.metadata import ImageFacts
 from fieldhand.execution.journal.records import (
     InputLog,
     Observation,
@@ -49,11 +52,13 @@ from fieldhand.execution.journal.records import (
 )
 from fieldhand.execution.mission_clock import LOOK_EVERY_S, MissionClock, StopTimeout
 from fieldhand.execution.operator_commands import OperatorCommand
+from fieldhand.execution.robot_text import robot_text, robot_text_or_none
+from fieldhand.execution.unobserved_drive import UnobservedDrive, drive_since
 from fieldhand.forecast.failsafe_state import FailsafeForecast, FailsafeState
 from fieldhand.forecast.mission_state import MissionState, Verdict, Visit, VisitChoice
 from fieldhand.language import message
 from fieldhand.task.event_lines import to_json
-from fieldhand.task.results import Event
+from fieldhand.task.results import Event, ImageFile
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -81,9 +86,12 @@ class RecordedInputs:
             stays
             where it is.
         watched: Names of the events that the mission watches.
+        images: Saves the images of captures; None to save none.
 
     Attributes:
         cuts: Number of power cuts so far.
+        unobserved: What the robot drove on during the last one; None for nothing.
+        absent_s: Seconds for which nobody looked at the robot during all of them, as far as they are known.
     """
 
     def __init__(
@@ -99,8 +107,14 @@ class RecordedInputs:
         log: InputLog | None = None,
         simulated: bool = False,
         watched: Collection[str] = (),
+        images: ImageFolder | None = None,
     ) -> None:
         self.cuts = 0
+        self._images, self._files = images, tuple[ImageFile, ...]()
+        self._goals = 0
+        self._course = Course()
+        self.unobserved: UnobservedDrive | None = None
+        self.absent_s, self._is_back = 0.0, False
         self._watched = tuple(watched)
         self._driver, self._guard, self._failsafe = driver, guard, failsafe
         self._clock, self._wall, self._log = clock, wall, log
@@ -112,7 +126,9 @@ class RecordedInputs:
         self._now: Observation | None = None
         self._ahead: Record | None = None
         self._goal: DriveGoal | ActionGoal | None = None
-        self._goal_from: Position | None = None
+        #: The last look at the goal under way, or at the robot before it started.
+        self._last: Observation | None = None
+        self._goal_progress = Progress(state="running")
         self._goal_cut_off = False
         self._replayed = 0
         self._committed_s = time.monotonic()
@@ -146,7 +162,7 @@ class RecordedInputs:
 
     def start(self, goal: DriveGoal | ActionGoal) -> None:
         """Start a goal, once its record is synced."""
-        self._goal_from = self.observation.position
+        self._last, self._goal_progress = self.observation, Progress(state="running")
         record, before = goal_record(goal), self._recorded("begun")
         if before is not None and before.body != record.body:
             raise divergence(f"it began {before.body}, now it would begin {record.body}")
@@ -157,7 +173,8 @@ class RecordedInputs:
                 self._driver.start_drive(goal)
             else:
                 self._driver.start_action(goal)
-        self._goal, self._now = goal, None
+        self._goal, self._now, self._files = goal, None, ()
+        self._goals += 1
 
     def cancel(self) -> None:
         """Ask the driver to cancel the current goal."""
@@ -193,7 +210,8 @@ class RecordedInputs:
             self._clock.rest()
             # A real robot, including its emergency stop, is only heard while it is polled.
             self._driver.poll()
-            news = self._current_command() != before.order or self._driver.stopped() != before.stopped
+            stopped = robot_text_or_none(self._driver.stopped())
+            news = self._current_command() != before.order or stopped != before.stopped
             if news or noteworthy(self._clock.look(), self._driver.charge_percent()):
                 self._now = self._observe()
                 return
@@ -322,6 +340,7 @@ class RecordedInputs:
     def _cut(self) -> None:
         """Count a power cut; it interrupted the current goal."""
         self.cuts += 1
+        self.unobserved, self._is_back = None, self._live and not self._simulated
         self._goal_cut_off = self._goal is not None
         if self._live or self._simulated:
             self._driver.cancel()
@@ -348,24 +367,33 @@ class RecordedInputs:
     def _observe(self) -> Observation:
         """Observe the robot as it is at this instant."""
         t = self._clock.look()
-        progress = self._driver.poll()
+        progress, unobserved = self._driver.poll(), None
         if self._goal_cut_off:
-            progress = self._cut_off(progress)
+            progress, unobserved = self._cut_off(progress)
+            t = self._clock.now()
+        progress = self._with_files(progress)
+        if progress.what:
+            progress = dataclasses.replace(progress, what=robot_text(progress.what))
         shared = self._driver if isinstance(self._driver, SharedNavigation) else None
         observation = Observation(
             t=t,
             position=self._driver.position(),
             charge_percent=self._driver.charge_percent(),
             progress=progress,
-            stopped=self._driver.stopped(),
-            lost=self._driver.lost(),
+            stopped=robot_text_or_none(self._driver.stopped()),
+            lost=robot_text_or_none(self._driver.lost()),
             wall=self._time_of_day(),
             next_in=self._driver.next_event_in(),
             order=self._current_command(),
             events=self._events(),
-            away=shared.away() if shared is not None else None,
-            taken=shared.taken() if shared is not None else None,
+            away=robot_text_or_none(shared.away()) if shared is not None else None,
+            taken=robot_text_or_none(shared.taken()) if shared is not None else None,
+            odometer_m=self._driver.odometer_m() if isinstance(self._driver, Odometer) else None,
+            unobserved=unobserved,
+            absent_s=self._stood_s() if self._is_back else 0.0,
         )
+        self._is_back = False
+        self._keep(observation)
         goal, changed = self._goal, observation.order != self._last_command
         self._last_command = observation.order
         self._record(observation.record(), commit=changed or (self._ends_goal(progress) and self._must_commit(goal)))
@@ -379,8 +407,38 @@ class RecordedInputs:
             self._driver.poll()
         if observation.progress.state == "cut_off":
             self._goal_cut_off = False
+        self._keep(observation)
         self._ends_goal(observation.progress)
         return observation
+
+    def _keep(self, observation: Observation) -> None:
+        """Keep what is needed to find out what the robot drives on during a power cut."""
+        self._last = observation
+        self._course.add(observation.position)
+        self._files = observation.progress.files
+        self.absent_s += observation.absent_s
+        if observation.progress.state == "running":
+            self._goal_progress = observation.progress
+        if observation.unobserved is not None:
+            self.unobserved = observation.unobserved
+
+    def _with_files(self, progress: Progress) -> Progress:
+        """Save the images of a capture that has just ended; its progress then names their files."""
+        if not progress.over or not (progress.images or self._files):
+            return progress
+        if isinstance(self._goal, ActionGoal) and progress.images:
+            facts = ImageFacts(
+                number=self._goals,
+                node=self._goal.node,
+                attempt=self._goal.attempt,
+                action=self._goal.action,
+                place=self._goal.place,
+                position=self._driver.position(),
+                heading_deg=self._course.heading_deg,
+                taken_s=None if self._wall is None else self._wall.now(),
+            )
+            self._files = tuple(save_image(self._images, image, facts) for image in progress.images)
+        return dataclasses.replace(progress, images=(), files=self._files)
 
     def _events(self) -> Mapping[str, float | None]:
         """Return the values of the watched events; those that the driver does not report are unknown."""
@@ -393,7 +451,8 @@ class RecordedInputs:
             return None
         now = self._wall.now()
         if self._away_s is None:
-            self._away_s = 0.0 if self._wall_seen is None else now - self._wall_seen
+            driven_s = 0.0 if self.unobserved is None else self.unobserved.seconds
+            self._away_s = 0.0 if self._wall_seen is None else now - self._wall_seen - driven_s
         return now - self._away_s
 
     def _ends_goal(self, progress: Progress) -> bool:
@@ -410,10 +469,11 @@ class RecordedInputs:
         """
         return isinstance(goal, ActionGoal) or not self._simulated or math.isfinite(self._clock.speed)
 
-    def _cut_off(self, progress: Progress) -> Progress:
-        """Return the state of a goal that a power cut interrupted, once the robot stands still.
+    def _cut_off(self, progress: Progress) -> tuple[Progress, UnobservedDrive | None]:
+        """Return the state of a goal that a power cut interrupted, once the robot stands still, and what it drove on.
 
-        The driver may have lost the distance of a drive: then the straight line is a lower bound.
+        A simulation has driven nothing meanwhile. A real robot drove on to the end of its goal, which a new driver has
+        not seen. The time of driving on counts.
         """
         timeout = StopTimeout(self._clock)
         while not progress.over:
@@ -423,17 +483,35 @@ class RecordedInputs:
             self._clock.look()
             progress = self._driver.poll()
         self._goal_cut_off = False
-        metres = 0.0
-        if isinstance(self._goal, DriveGoal) and self._goal_from is not None:
-            now = self._driver.position()
-            metres = max(progress.metres, math.dist(now.xy, self._goal_from.xy))
-        return dataclasses.replace(
+        cut_off = dataclasses.replace(
             progress,
             state="cut_off",
-            metres=metres,
             readings={},
             what=message("the power was cut while it was made", context="log"),
         )
+        if self._simulated or self._last is None or not isinstance(self._goal, DriveGoal):
+            return (cut_off if self._simulated else dataclasses.replace(cut_off, metres=0.0)), None
+        odometer_m = self._driver.odometer_m() if isinstance(self._driver, Odometer) else None
+        driven = drive_since(self._last, self._goal, self._driver.position(), odometer_m, within_s=self._absent_s())
+        before = self._goal_progress
+        self._clock.skip(driven.seconds)
+        # Positions that are known to some centimetres are no drive.
+        self.unobserved = driven if driven.is_seen else None
+        metres, seconds = before.metres + driven.metres, before.seconds + driven.seconds
+        return dataclasses.replace(cut_off, metres=metres, seconds=seconds), self.unobserved
+
+    def _stood_s(self) -> float:
+        """Return the seconds for which the robot stood while nobody looked; 0 if they are unknown."""
+        absent_s = self._absent_s()
+        driven_s = 0.0 if self.unobserved is None else self.unobserved.seconds
+        return max(0.0, absent_s - driven_s) if math.isfinite(absent_s) else 0.0
+
+    def _absent_s(self) -> float:
+        """Return the seconds for which nobody looked at the robot; infinity if that is unknown."""
+        if self._wall is None or self._wall_seen is None:
+            return math.inf
+        passed = self._wall.now() - self._wall_seen
+        return passed if passed > 0.0 else math.inf
 
 
 def _discard(event: Event) -> None:

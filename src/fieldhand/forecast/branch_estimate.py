@@ -67,6 +67,10 @@ class BranchEstimate:
         visits: Mean number of optional visits and steps.
         shed: Places of optional visits and steps for which the budget will probably not suffice.
         charges: Number of charges; None if the mission does not recharge.
+        stranding: Probability of falling to the stop level on the way to the charger or home; 0 if the mission does not
+            recharge.
+        charged_to: Charge in percent up to which it interrupts the plan to charge, in nine missions of ten; 0 if it
+            does not.
         walk: The walk along the branch.
         fault: Fault that ends the branch at its last node; None if none does.
     """
@@ -83,6 +87,8 @@ class BranchEstimate:
     walk: Walk
     fault: Fault | None = None
     charges: Figure | None = None
+    stranding: float = 0.0
+    charged_to: float = 0.0
 
     __repr__ = short_repr
 
@@ -101,8 +107,15 @@ class BranchEstimate:
             "battery_percent": asdict(self.percent),
             "battery_left_percent": {"p50": self.left[0], "p90": self.left[1]},
             "captures": self.captures,
-            **({} if self.charges is None else {"charges": asdict(self.charges)}),
+            **({} if self.charges is None else self._charging_record(self.charges)),
             "limits": [asdict(chance) for chance in self.chances],
+        }
+
+    def _charging_record(self, charges: Figure) -> dict[str, object]:
+        return {
+            "charges": asdict(charges),
+            "charged_to_percent": self.charged_to,
+            "stranding_probability": self.stranding,
         }
 
 
@@ -151,6 +164,8 @@ def estimate_branch(
         visits=sum(s.visit_forecast.visits for s in lists if s.visit_forecast is not None),
         shed=tuple(p for s in lists for p in s.shed),
         charges=None if charging is None else _figure(charging.charges),
+        stranding=0.0 if charging is None else float(np.minimum(charging.stranding, 1.0).mean()),
+        charged_to=0.0 if charging is None else float(np.quantile(charging.charged_to, 0.9)),
         walk=walked,
         fault=fault,
     )

@@ -148,11 +148,13 @@ class ChargesNeeded:
         here: From where the robot is.
         from_charger: From the charger, with a charged battery.
         rest: From the charger, for everything that is left.
+        far: Up to what percent to charge for the stretch (:meth:`RechargeRules.far`).
     """
 
     here: Floats
     from_charger: Floats
     rest: Floats
+    far: Floats
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -190,6 +192,14 @@ class _Ahead:
         """Return the charge that suffices for everything that is left."""
         return self.rules.needed(self.whole(first_m, number), self.work[number], charged=charged, ends=ends)
 
+    def certain(self, first_m: Floats) -> tuple[Floats, Floats]:
+        """Return the charge that keeps stretches off the stop level up to the charger, and up to the end."""
+        there = np.where(np.isfinite(self.back_m), self.back_m, 0.0)
+        sums = [first_m**n + there**n for n in (1, 2, 3)]
+        to_charger = self.rules.certain(sums, self.asked + self.rules.dock_percent)
+        end = self.rules.certain(self.whole(first_m), self.work)
+        return np.where(np.isfinite(self.back_m), to_charger, np.inf), end
+
     def whole(self, first_m: Floats, number: int | slice = slice(None)) -> list[Floats]:
         """Return the sums of the legs that are left, where the first one has this length."""
         return [first_m**n + self.later[n - 1, number] for n in (1, 2, 3)]
@@ -220,10 +230,12 @@ def _needed(some: Sequence[GuardedStep], ahead: _Ahead) -> ChargesNeeded:
     leg, begin = (np.array([getattr(s, name) for s in some]) for name in ("leg_m", "from_charger_m"))
     known = np.isfinite(begin)
     start = np.where(known, begin, 0.0)
+    certain = zip(*(part.tolist() for part in ahead.certain(start)), strict=True)
     return ChargesNeeded(
         here=ahead.suffices(leg),
         from_charger=np.where(known, ahead.suffices(start, charged=True), np.inf),
         rest=np.where(known, ahead.everything(start), np.inf),
+        far=np.where(known, [ahead.rules.far(*each) for each in certain], np.inf),
     )
 
 
@@ -285,6 +297,8 @@ def charged_missions(
         back_m = stretch.from_charger_m if goes.any() else 0.0
         leaving = None if stretch.leg_m else leaving
         way = np.where(goes, back_m * costs, way)
+        if stretch.step is not None and (stretch.step.kind == "exit" or stretch.step.node.recharge is not None):
+            missions.set_out(np.where(goes, back_m, legs_m))
         if stretch.step is not None and stretch.step.kind == "drive" and not after_visits:
             way = turn_back(
                 missions,
@@ -319,12 +333,12 @@ def _charge_first(
     needed: ChargesNeeded,
 ) -> NDArray[np.bool_]:
     """Send the missions that must charge before a stretch to the charger if they can; return True for these."""
-    possible = bool(needed.from_charger[number] <= rules.until_percent)
+    possible = bool(needed.from_charger[number] <= rules.most_percent)
     able = rules.gains(missions.level) & possible & (missions.ordered < rules.at_most)
     goes: NDArray[np.bool_] = must & able & np.isfinite(missions.away_m)
     if goes.any():
         some = np.flatnonzero(goes)
-        missions.drive((missions.away_m * samples.leg(number, detour=1))[some], some)
-        missions.ordered[some] += 1.0
-        missions.dock(some, rules.target(float(needed.rest[number]), missions.level[some]))
+        costs = samples.leg(number, detour=1)[some]
+        rest, far = float(needed.rest[number]), float(needed.far[number])
+        missions.interrupt(some, missions.away_m[some], costs, rest=rest, far=far)
     return goes

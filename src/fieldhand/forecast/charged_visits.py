@@ -50,6 +50,44 @@ class _Spot:
     home_m: float
 
 
+@dataclass(frozen=True, kw_only=True)
+class FromCharger:
+    """An optional visit as seen from the charger.
+
+    Attributes:
+        leg_m: Metres to it; infinite if there is no way.
+        needed: Charge in percent that suffices.
+        far: Up to what percent to charge for it (:meth:`RechargeRules.far`).
+    """
+
+    leg_m: float
+    needed: float
+    far: float
+
+    def is_within(self, rules: RechargeRules) -> bool:
+        """Return True if a charged battery suffices."""
+        return self.needed <= rules.most_percent
+
+
+def from_charger(rules: RechargeRules, visit: Visit, length: Callable[[Place, Place], float]) -> FromCharger:
+    """Return an optional visit as seen from the charger.
+
+    Args:
+        rules: Rules of recharging.
+        visit: The visit.
+        length: Returns the metres between two places.
+    """
+    there_m, back_m = _metres(length, rules.charger, visit.place), _metres(length, visit.end, rules.charger)
+    if not math.isfinite(there_m + back_m):
+        return FromCharger(leg_m=there_m, needed=math.inf, far=math.inf)
+    sums, work = _there_and_back(np.array(there_m), back_m), _docked(rules, visit)
+    return FromCharger(
+        leg_m=there_m,
+        needed=float(rules.optional(sums, work)),
+        far=rules.far(float(rules.certain(sums, work))),
+    )
+
+
 class ChargedVisits:
     """Sampled missions on their optional visits (:class:`fieldhand.orienteering.preview.Detours`).
 
@@ -92,7 +130,7 @@ class ChargedVisits:
         self._leg_m, self._begin_m = np.zeros(draws), np.zeros(draws)
         self._rng = np.random.default_rng(0)
         self._spots: dict[int, _Spot] = {}
-        self._first: dict[int, tuple[float, float]] = {}
+        self._first: dict[int, FromCharger] = {}
 
     @property
     def charger(self) -> Place:
@@ -122,7 +160,7 @@ class ChargedVisits:
         """Return the metres from the charger to a stop, or to the work that follows."""
         if stop > len(self._visits):
             return 0.0 if self._rest.first is None else self._metres(self._rules.charger, self._rest.first)
-        return self._from_charger(stop)[0]
+        return self._from_charger(stop).leg_m
 
     def set_out(self, some: Ints, stop: int, legs: Floats, rng: np.random.Generator) -> Departures:
         """Decide on the visit to a stop, and charge first where it is needed.
@@ -137,26 +175,25 @@ class ChargedVisits:
 
         rules, missions, visit = self._rules, self.missions, self._visits[stop - 1]
         level, away = missions.level[some], self._away(some)
-        begin_m, first = self._from_charger(stop)
-        needed = rules.needed(_there_and_back(legs, self._spot(stop).away_m), self._docked(visit))
+        start = self._from_charger(stop)
+        begin_m, possible = start.leg_m, start.is_within(rules)
+        needed = rules.needed(_there_and_back(legs, self._spot(stop).away_m), _docked(rules, visit))
         must = rules.must_charge(level, needed)
         wants = must & rules.gains(level) & (missions.ordered[some] < rules.at_most) & np.isfinite(away)
-        wants &= (first <= rules.until_percent) & (self._at[some] != _CHARGER)
+        wants &= possible & (self._at[some] != _CHARGER)
         charges = wants & ~self._dry[some]
         if charges.any():
-            charges &= self._fits(some, visit, stop, away, begin_m)
+            charges &= self._fits(some, visit, stop, away, start)
         self._dry[some] |= wants & ~charges
         if charges.any():
             going = some[charges]
             costs = cost_model(rules.robot).draw(rng, len(going))
-            missions.drive(away[charges] * costs, going)
-            missions.ordered[going] += 1.0
-            missions.dock(going, rules.target(math.inf, missions.level[going]))
+            missions.interrupt(going, away[charges], costs, far=start.far)
             self._at[going] = _CHARGER
         self._rng = rng
         self._leg_m[some] = np.where(charges, begin_m, legs)
         self._begin_m[some] = np.where(charges, 0.0, away)
-        makes = (first <= rules.until_percent) & ~(must & self._dry[some])
+        makes = possible & ~(must & self._dry[some])
         waits = charges & (self.policy is not None)
         return Departures(makes=makes & ~waits, waits=waits, legs=np.where(charges, begin_m, legs))
 
@@ -170,7 +207,7 @@ class ChargedVisits:
             leg_m=leg_m,
             costs=np.divide(costs, leg_m, out=np.ones_like(costs), where=leg_m > 0.0),
             begin_m=self._begin_m[some],
-            from_charger_m=self._from_charger(stop)[0],
+            from_charger_m=self._from_charger(stop).leg_m,
             after_m=self._spot(stop).away_m,
             draw=self._draw,
             slower_s_per_m=self._slower,
@@ -198,16 +235,17 @@ class ChargedVisits:
                 found[self._at == vertex] = self._metres(self._end(vertex), to)
         return found
 
-    def _fits(self, some: Ints, visit: Visit, stop: int, away: Floats, begin_m: float) -> Flags:
+    def _fits(self, some: Ints, visit: Visit, stop: int, away: Floats, start: FromCharger) -> Flags:
         """Return True where charging, the visit and the way home keep the budgets."""
-        rules, missions = self._rules, self.missions
+        rules, missions, begin_m = self._rules, self.missions, start.leg_m
         charging, robot = rules.robot.energy.charging, rules.robot
         assert charging is not None  # noqa: S101  rules exist only for a robot that charges
         home_m = self._spot(stop).home_m
         fits = np.full(len(some), math.isfinite(begin_m + home_m))
         if not fits.any():
             return fits
-        full_s = charging.seconds(missions.level[some], rules.until_percent, robot.energy.capacity_j)
+        level = missions.level[some]
+        full_s = charging.seconds(level, rules.target(math.inf, level, start.far), robot.energy.capacity_j)
         legs = [away**n + begin_m**n + home_m**n for n in (1, 2, 3)]
         used = {
             "distance_m": missions.metres[some],
@@ -223,22 +261,11 @@ class ChargedVisits:
             fits &= rules.longest(legs, budget.failure_probability) * budget.per_metre <= left
         return fits
 
-    def _docked(self, visit: Visit) -> float:
-        """Return the charge in percent that a visit takes, and docking."""
-        rules, work = self._rules, visit.work
-        return rules.robot.percent(0.0, work.seconds, work.joules) + work.metres * rules.per_metre + rules.dock_percent
-
-    def _from_charger(self, stop: int) -> tuple[float, float]:
-        """Return the metres from the charger to a stop, and the charge in percent that suffices for it from there."""
+    def _from_charger(self, stop: int) -> FromCharger:
+        """Return a stop as seen from the charger."""
         found = self._first.get(stop)
         if found is None:
-            visit, rules = self._visits[stop - 1], self._rules
-            begin_m, needed = self._metres(rules.charger, visit.place), math.inf
-            back_m = self._spot(stop).away_m
-            if math.isfinite(begin_m + back_m):
-                sums, work = _there_and_back(np.array(begin_m), back_m), self._docked(visit)
-                needed = float(rules.needed(sums, work, charged=True))
-            found = self._first[stop] = (begin_m, needed)
+            found = self._first[stop] = from_charger(self._rules, self._visits[stop - 1], self._length)
         return found
 
     def _away(self, some: Ints) -> Floats:
@@ -264,10 +291,20 @@ class ChargedVisits:
         return self._here if vertex == 0 else self._visits[vertex - 1].end
 
     def _metres(self, a: Place, b: Place) -> float:
-        try:
-            return self._length(a, b)
-        except DriveFault:
-            return math.inf
+        return _metres(self._length, a, b)
+
+
+def _metres(length: Callable[[Place, Place], float], a: Place, b: Place) -> float:
+    try:
+        return length(a, b)
+    except DriveFault:
+        return math.inf
+
+
+def _docked(rules: RechargeRules, visit: Visit) -> float:
+    """Return the charge in percent that a visit takes, and docking."""
+    work = visit.work
+    return rules.robot.percent(0.0, work.seconds, work.joules) + work.metres * rules.per_metre + rules.dock_percent
 
 
 def _there_and_back(there: Floats, back_m: float) -> list[Floats]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import math
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,19 +38,24 @@ class ChargingMissions:
         metres: Cost of the legs of each in metres.
         seconds, joules: Time and energy of actions and charging of each, without driving and idle power.
         charges: Number of charges of each; ``ordered`` of them interrupted the plan.
+        charged_to: Highest charge in percent up to which the plan was interrupted to charge; 0 if it was not.
+        stranding: Probability of each of having fallen to the stop level on a way to the charger or home; exact for
+            the cost of that way, so that it can be far below one in the number of missions.
     """
 
     def __init__(self, rules: RechargeRules, task: Task, draws: int, charge_percent: float) -> None:
         charging = rules.robot.energy.charging
         assert charging is not None  # noqa: S101  rules exist only for a robot that charges
-        self._robot, self._charging = rules.robot, charging
+        self._robot, self._charging, self._rules = rules.robot, charging, rules
         self._until = charge_target(task.constraints, rules.robot)
         self._speed, self._at_start = speed_of(task.constraints, rules.robot), charge_percent
         self.level = np.full(draws, charge_percent)
         self.away_m: Floats = np.full(draws, np.inf)
         self.metres, self.seconds, self.joules = np.zeros(draws), np.zeros(draws), np.zeros(draws)
         self.charges, self.ordered = np.zeros(draws), np.zeros(draws)
+        self.charged_to = np.zeros(draws)
         self._docked_s, self._lowest = np.zeros(draws), self.level.copy()
+        self.stranding, self._runs = np.zeros(draws), np.ones(draws, dtype=bool)
 
     def copy(self) -> ChargingMissions:
         """Return missions that go on from here independently."""
@@ -71,6 +77,8 @@ class ChargingMissions:
                 docked_s=self._docked_s,
                 left=self.level,
                 lowest=np.minimum(self._lowest, self.level),
+                stranding=self.stranding,
+                charged_to=self.charged_to,
             ),
         )
 
@@ -98,6 +106,30 @@ class ChargingMissions:
         if slower_s_per_m:
             self.seconds[of] += metres * slower_s_per_m
             self.level[of] -= self._robot.percent(0.0, slower_s_per_m) * metres
+        self._runs[of] &= self.level[of] > self._rules.stop_percent
+
+    def interrupt(
+        self, of: Ints, away_m: Floats, costs: Floats, *, rest: float = math.inf, far: float = math.inf
+    ) -> None:
+        """Interrupt the plan: drive to the charger, dock and charge as far as the rules say.
+
+        Args:
+            of: The missions.
+            away_m: Metres to the charger, shape (of,).
+            costs: Metres driven for each of them.
+            rest, far: Charges that decide how far, as in :meth:`RechargeRules.target`.
+        """
+        self.set_out(away_m, of)
+        self.drive(away_m * costs, of)
+        self.ordered[of] += 1.0
+        until = self._rules.target(rest, self.level[of], far)
+        self.charged_to[of] = np.maximum(self.charged_to[of], until)
+        self.dock(of, until)
+
+    def set_out(self, metres: Floats, of: Missions = ALL) -> None:
+        """Add the probability that a leg of these lengths, to the charger or home, takes each to the stop level."""
+        chance = self._rules.stop_chance(self.level[of], [metres, metres**2, metres**3])
+        self.stranding[of] += np.where(self._runs[of], chance, 0.0)
 
     def act(self, work: Work, of: Missions = ALL) -> None:
         """Do work, without the metres driven in it."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from fieldhand.forecast.recharge_rules import LEAST_GAIN_PERCENT, charge_target
+from fieldhand.forecast.recharge_rules import LEAST_GAIN_PERCENT, charge_target, farthest_target
 from fieldhand.forecast.resource_limits import reserve_percent, speed_of
 from fieldhand.forecast.walk_steps import WalkStep
 from fieldhand.robot.model import RobotProfile
@@ -50,7 +50,10 @@ class ExpectedCharge:
             self._charged(None)
             charge = charge_target(constraints, self._robot)
         spread = _SPREAD * math.sqrt(self._variance)
-        return (charge - spread, charge + spread)
+        further = 0.0  # before far places
+        if constraints.recharge:
+            further = farthest_target(constraints, self._robot) - charge_target(constraints, self._robot)
+        return (charge - spread, charge + spread + further)
 
     def _charged(self, until_percent: float | None) -> None:
         target = charge_target(self._task.constraints, self._robot)

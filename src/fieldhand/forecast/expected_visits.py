@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from fieldhand.errors import DriveFault
 from fieldhand.forecast.candidates import cheapest
-from fieldhand.forecast.charged_visits import ChargedVisits
+from fieldhand.forecast.charged_visits import ChargedVisits, from_charger
 from fieldhand.forecast.mission_state import Spent, Visit, Work
 from fieldhand.forecast.orienteering_problem import GONE, left_before, policy_for, visits_problem
 from fieldhand.forecast.recharge_rules import mission_limits, recharge_rules
@@ -80,6 +80,7 @@ def expected_visits(
 
     rest = _rest(walker, node, visits)
     visits, beyond = _candidates(walker, visits, rest)
+    visits, too_far = _within_charge(walker, visits)
     without, share, allowance = _share(walker, rest)
     samples = walker.samples
     used = np.zeros(DRAWS) if samples is None else samples.metres - walker.spent.metres
@@ -102,12 +103,12 @@ def expected_visits(
         places=tuple(visits[v - 1].place for v in found.vertices.tolist() if v - 1 in chosen),
         shed=(
             *(visits[k].place for k in sorted(likely[round(mean) :], key=lambda k: -chances[k])),
-            *(v.place for v in beyond),
+            *(v.place for v in (*beyond, *too_far)),
         ),
         visit_forecast=VisitForecast(
             visits=mean,
             chances={v.place.id: float(chance) for v, chance in zip(visits, chances, strict=True)}
-            | {v.place.id: 0.0 for v in beyond},
+            | {v.place.id: 0.0 for v in (*beyond, *too_far)},
         ),
         preview=found,
         ids=tuple(v.place.id for v in visits),
@@ -153,6 +154,18 @@ def _candidates(
         return visits, ()
     chosen = set(kept)
     return [visits[k] for k in kept], [v for k, v in enumerate(visits) if k not in chosen]
+
+
+def _within_charge(walker: ForecastHandler, visits: Sequence[Visit]) -> tuple[Sequence[Visit], Sequence[Visit]]:
+    """Return the visits for which a charged battery suffices, and the others; all of them if it suffices for none."""
+    rules = recharge_rules(walker.task, walker.site, walker.robot)
+    if rules is None:
+        return visits, ()
+    within = [from_charger(rules, visit, partial(_length, walker)).is_within(rules) for visit in visits]
+    if not any(within):
+        return visits, ()
+    near = [visit for visit, is_within in zip(visits, within, strict=True) if is_within]
+    return near, [visit for visit, is_within in zip(visits, within, strict=True) if not is_within]
 
 
 def _several(

@@ -161,6 +161,7 @@ def _ended(
     for step in steps:
         if step.drive is not None:
             samples.drive(step.drive.length_m, step.slower_s_per_m)
+            samples.work(Work(seconds=step.turn_s))
         elif step.kind == "work":
             samples.work(step.work)
         elif step.kind in ("act", "wait"):

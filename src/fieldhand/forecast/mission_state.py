@@ -22,6 +22,7 @@ class Spent:
         percent: What the battery supplied; what it was charged with in between is not subtracted.
         joules: Energy of actions in joules by the profile, without idle power.
         docked_s: Seconds of these at the charger, which supplied the robot.
+        absent_s: Seconds beside these for which the program was dead, while the robot stood and may have been on.
     """
 
     metres: float = 0.0
@@ -29,6 +30,7 @@ class Spent:
     percent: float = 0.0
     joules: float = 0.0
     docked_s: float = 0.0
+    absent_s: float = 0.0
 
     def __add__(self, other: Spent) -> Spent:
         return Spent(
@@ -37,6 +39,7 @@ class Spent:
             percent=self.percent + other.percent,
             joules=self.joules + other.joules,
             docked_s=self.docked_s + other.docked_s,
+            absent_s=self.absent_s + other.absent_s,
         )
 
 

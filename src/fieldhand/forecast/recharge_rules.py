@@ -6,7 +6,8 @@ charged battery the visit is possible. So it never leaves for a place from which
 every charge makes at least one visit possible.
 
 A leg can take several times its mean. The charge must therefore also suffice, almost certainly, to stay above the level
-at which the robot stops: far from the charger it leaves earlier than the reserve alone would ask for.
+at which the robot stops: far from the charger it leaves earlier than the reserve alone would ask for. Before visits for
+which the usual target is not certain enough it charges further than that, unless the Task gives the target.
 """
 
 from __future__ import annotations
@@ -47,6 +48,10 @@ STOP_SHARE = 0.5
 #: Charge in percent that charging must gain at least; below that, the robot does not go to the charger.
 LEAST_GAIN_PERCENT = 5.0
 
+#: Charge in percent beyond what surely suffices for a visit, if the robot charges further than usual for it: so much is
+#: left for more visits nearby.
+FAR_ROOM_PERCENT = 10.0
+
 #: Charge in percent beyond what the rest of the mission takes, if the robot charges no further than that.
 MARGIN_PERCENT = 2.0
 
@@ -68,6 +73,13 @@ def charge_target(constraints: Constraints, robot: RobotProfile) -> float:
     return 100.0 if robot.energy.charging is None else robot.energy.charging.until_percent
 
 
+def farthest_target(constraints: Constraints, robot: RobotProfile) -> float:
+    """Return the charge in percent up to which a mission charges before far places: the Task's, else the highest."""
+    if constraints.recharge_until_percent is not None:
+        return constraints.recharge_until_percent
+    return 100.0 if robot.energy.charging is None else robot.energy.charging.most_percent
+
+
 def charger_of(site: Site, robot: RobotProfile) -> Place | None:
     """Return the charger of a site if the robot can recharge."""
     return None if robot.energy.charging is None else site.markers.get("charger")
@@ -83,12 +95,14 @@ class RechargeRules:
         reserve_percent: Charge that must be left on arrival at the charger and at the end.
         stop_percent: Charge at which the robot stops wherever it is.
         below_percent: Charge below which the robot charges although the next visit would still fit; 0 for none.
-        until_percent: Charge up to which it charges.
+        until_percent: Charge up to which it charges usually.
+        most_percent: Charge up to which it charges before far places.
         as_needed: True to end charging earlier if the charge suffices for everything that is left.
         at_most: Maximum number of charges that interrupt the plan; infinite for any number.
         planned: Number of charges that are steps of the plan.
         accepted: Accepted probability of falling below the reserve on one stretch, if charging first can avoid it.
         tolerated: Accepted probability of falling below the reserve on one stretch from a charged battery.
+        stranding: Accepted probability that a mission falls to the stop level on the way to its charger or home.
         per_metre: Charge in percent that a metre of driving takes on average.
         dock_percent: Charge in percent that docking takes.
     """
@@ -99,11 +113,13 @@ class RechargeRules:
     stop_percent: float
     below_percent: float
     until_percent: float
+    most_percent: float
     as_needed: bool
     at_most: float
     planned: float
     accepted: float
     tolerated: float
+    stranding: float
     per_metre: float
     dock_percent: float
 
@@ -136,9 +152,30 @@ class RechargeRules:
         found: Floats = self.reserve_percent + metres * self.per_metre + work
         if charged:
             return found
-        surely = self.stop_percent + self.longest(sums, STOP_CHANCE) * self.per_metre + work
-        most = found + STOP_SHARE * np.maximum(0.0, self.until_percent - found)
-        return np.where(np.asarray(ends), found, np.maximum(found, np.minimum(surely, most)))
+        most = found + STOP_SHARE * np.maximum(0.0, self.most_percent - found)
+        surely = np.minimum(self.certain(sums, work), most)
+        return np.where(np.asarray(ends), found, np.maximum(found, surely))
+
+    def certain(self, sums: Sequence[ArrayLike], work_percent: ArrayLike, chance: float = STOP_CHANCE) -> Floats:
+        """Return the charge in percent that keeps off the stop level but for a small probability, elementwise.
+
+        Args:
+            sums, work_percent: As in :meth:`needed`.
+            chance: The probability.
+        """
+        found: Floats = self.stop_percent + self.longest(sums, chance) * self.per_metre + np.asarray(work_percent)
+        return found
+
+    def optional(self, sums: Sequence[ArrayLike], work_percent: ArrayLike) -> Floats:
+        """Return the charge in percent that a charged battery needs for an optional visit, elementwise.
+
+        It may use no more than :data:`STRETCH_SHARE` of the accepted probability of being stranded.
+
+        Args:
+            sums, work_percent: As in :meth:`needed`, with the way back to the charger.
+        """
+        certain = self.certain(sums, work_percent, STRETCH_SHARE * self.stranding)
+        return np.maximum(self.needed(sums, work_percent, charged=True), certain)
 
     def stop_chance(
         self, charge_percent: ArrayLike, sums: Sequence[ArrayLike], work_percent: ArrayLike = 0.0
@@ -185,8 +222,19 @@ class RechargeRules:
 
     def needed_for(self, way: RouteCost, *, charged: bool = False, docks: bool = False, ends: bool = False) -> float:
         """Return the charge in percent that suffices for one route, as :meth:`needed`; with docking at its end."""
+        return float(self.needed(way.sums, self._work_in(way, docks=docks), charged=charged, ends=ends))
+
+    def certain_for(self, way: RouteCost, *, docks: bool = False) -> float:
+        """Return the charge in percent that keeps one route off the stop level, as :meth:`certain`."""
+        return float(self.certain(way.sums, self._work_in(way, docks=docks)))
+
+    def optional_for(self, way: RouteCost) -> float:
+        """Return the charge in percent that a charged battery needs for one optional visit, as :meth:`optional`."""
+        return float(self.optional(way.sums, self._work_in(way, docks=True)))
+
+    def _work_in(self, way: RouteCost, *, docks: bool) -> float:
         work = self.robot.percent(0.0, way.work.seconds, way.work.joules) + way.work.metres * self.per_metre
-        return float(self.needed(way.sums, work + docks * self.dock_percent, charged=charged, ends=ends))
+        return work + docks * self.dock_percent
 
     def must_charge(
         self, charge_percent: ArrayLike, enough_percent: ArrayLike, *, ends: bool = False
@@ -202,31 +250,44 @@ class RechargeRules:
         wished = -math.inf if ends else self.below_percent
         return (charge < np.asarray(enough_percent) - 1e-9) | (charge < wished)
 
-    def target(self, rest_percent: float, charge_percent: ArrayLike) -> Floats:
+    def target(self, rest_percent: float, charge_percent: ArrayLike, far_percent: float) -> Floats:
         """Return up to what percent to charge: the wanted charge or, if the Task leaves it open, what the rest takes.
 
-        It is well above the charge now and that below which the robot charges, so that no charge follows another.
+        If the usual charge is not certain enough for the next visit, it charges further. The target is well above the
+        charge now and that below which the robot charges, so that no charge follows another.
 
         Args:
             rest_percent: Charge that suffices for everything that is left; infinite if it is unknown.
             charge_percent: Charge now.
+            far_percent: Result of :meth:`far` for the next visit, from the charger.
         """
         charge = np.asarray(charge_percent, dtype=np.float64)
         if not self.as_needed:
             return np.full_like(charge, self.until_percent)
         least = max(self.reserve_percent, self.below_percent) + LEAST_GAIN_PERCENT
-        wanted = np.maximum(charge + LEAST_GAIN_PERCENT, max(rest_percent + MARGIN_PERCENT, least))
-        return np.asarray(np.minimum(self.until_percent, wanted))
+        usual = min(self.until_percent, max(rest_percent + MARGIN_PERCENT, least))
+        return np.asarray(
+            np.minimum(self.most_percent, np.maximum(charge + LEAST_GAIN_PERCENT, max(usual, far_percent)))
+        )
+
+    def far(self, there_and_back: float, everything: float = math.inf) -> float:
+        """Return up to what percent the next visit asks to charge, given what keeps it off the stop level.
+
+        Args:
+            there_and_back: Result of :meth:`certain` for the visit and the way to the charger.
+            everything: That for everything that is left; infinite if it is unknown.
+        """
+        return min(there_and_back + FAR_ROOM_PERCENT, everything + MARGIN_PERCENT)
 
     def gains(self, charge_percent: ArrayLike) -> NDArray[np.bool_]:
         """Return True where charging would raise the charge noticeably."""
-        return np.asarray(charge_percent) <= self.until_percent - LEAST_GAIN_PERCENT
+        return np.asarray(charge_percent) <= self.most_percent - LEAST_GAIN_PERCENT
 
 
 def recharge_rules(task: Task, site: Site, robot: RobotProfile) -> RechargeRules | None:
     """Return the rules of a Task; None if it does not recharge, or cannot."""
-    charger, constraints = charger_of(site, robot), task.constraints
-    if charger is None or not recharges(task):
+    charger, charging, constraints = charger_of(site, robot), robot.energy.charging, task.constraints
+    if charger is None or charging is None or not recharges(task):
         return None
     reserve = resource_limits(constraints, robot)[-1]
     most = float("inf") if constraints.recharge_at_most is None else constraints.recharge_at_most
@@ -237,11 +298,13 @@ def recharge_rules(task: Task, site: Site, robot: RobotProfile) -> RechargeRules
         stop_percent=robot.energy.levels(reserve_percent(constraints, robot)).stop,
         below_percent=(constraints.recharge_below_percent or 0.0) if constraints.recharge else 0.0,
         until_percent=charge_target(constraints, robot),
+        most_percent=farthest_target(constraints, robot),
         as_needed=constraints.recharge_until_percent is None,
         at_most=float(most) if constraints.recharge else 0.0,
         planned=planned_charges(task.composition.plan),
         accepted=STRETCH_SHARE * reserve.failure_probability,
         tolerated=reserve.failure_probability,
+        stranding=charging.stranding_probability,
         per_metre=reserve.per_metre,
         dock_percent=_dock_percent(robot),
     )

@@ -271,7 +271,7 @@ class ForecastHandler(WalkState):
             places = ()
         if not node.optional:
             home = visit_order.home_if_last(self.task, self.site, node.id, self.context.here)
-            places = visit_order.visits_in_order(node, self.drives, self.context.here, places, home)
+            places = visit_order.visits_in_order(node, self.drives, self.context.here, places, home, self.robot)
             self.note(WalkStep(node=node, kind="visit-list", context=self.context, places=places))
             return PlannedVisits(places, work_of(node.body, self.robot), self.plan.pace_m_s)
         open_, closed = visit_order.reachable(self.drives, places)
@@ -315,6 +315,7 @@ class ForecastHandler(WalkState):
         fails = self.plan.is_caught and self.decide(node, "fails")
         # A failing action is assumed to fail at its last capture, at every retry.
         again = retry_work(node, self.robot) if fails else Work()
+        turn, faces = self._face(action.camera)
         self.collect(node, node.count - fails)
         self.note(
             WalkStep(
@@ -323,8 +324,10 @@ class ForecastHandler(WalkState):
                 context=self.context,
                 places=(self.context.here,),
                 captures=node.count - fails,
-                seconds=node.count * action.duration_s + again.seconds,
+                seconds=node.count * action.duration_s + again.seconds + turn,
                 joules=node.count * action.energy_j + again.joules,
+                heading_deg=faces.heading_deg,
+                sees=faces.sees,
             )
         )
         if fails:

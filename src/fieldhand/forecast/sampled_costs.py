@@ -33,12 +33,17 @@ class SampledCharging:
         docked_s: Seconds at the charger, during which it supplies the robot.
         left: Charge in percent at the end.
         lowest: Lowest charge in percent on arrival at the charger or at the end.
+        stranding: Probability of falling to the stop level on the way to the charger or home, given all costs but that
+            of the last leg.
+        charged_to: Highest charge in percent up to which the plan was interrupted to charge; 0 if it was not.
     """
 
     charges: Floats
     docked_s: Floats
     left: Floats
     lowest: Floats
+    stranding: Floats
+    charged_to: Floats
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

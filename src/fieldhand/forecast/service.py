@@ -7,9 +7,12 @@ import math
 from collections.abc import Sequence
 
 from fieldhand.forecast.mission_state import Work
-from fieldhand.robot.model import RobotProfile
+from fieldhand.robot.model import Action, RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.plan import Act, Node, Recharge
+
+#: Mean angle in degrees of turning to a plant and back: of every second one by 180 degrees each way.
+_MEAN_TURN_DEG = 180.0
 
 #: Share of the places of a ranking with which the worth of a visit halves.
 _HALVES_WITH = 0.05
@@ -27,7 +30,7 @@ def service_of(node: Node, robot: RobotProfile) -> tuple[float, float]:
     """
     if node.act is not None:
         action = robot.action[node.act.action]
-        return (node.act.count * action.duration_s, node.act.count * action.energy_j)
+        return (node.act.count * action.duration_s + _turning_s(action, robot), node.act.count * action.energy_j)
     if node.recharge is not None:
         return _charging(node.recharge, robot)
     if node.is_optional_step:
@@ -39,6 +42,13 @@ def service_of(node: Node, robot: RobotProfile) -> tuple[float, float]:
     together = max if node.is_choice else sum
     times = (1 if node.rounds is None else node.rounds) * (1 if node.at_most is None else node.at_most)
     return (times * together(seconds), times * together(joules))
+
+
+def _turning_s(action: Action, robot: RobotProfile) -> float:
+    """Return the mean seconds of turning on the spot for a camera and back."""
+    if action.camera is None or robot.turn_deg_s is None:
+        return 0.0
+    return _MEAN_TURN_DEG / robot.turn_deg_s
 
 
 def _charging(node: Recharge, robot: RobotProfile) -> tuple[float, float]:

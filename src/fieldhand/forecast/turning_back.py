@@ -174,9 +174,7 @@ def turn_back(
         those = some[at]
         missions.drive(done_m * costs[at], those, slower_s_per_m)
         back_m = np.minimum(done_m + begin_m[at], leg_m[at] - done_m + after_m)
-        missions.drive(back_m * draw(those, 2 * turn), those)
-        missions.ordered[those] += 1.0
-        missions.dock(those, rules.until_percent)
+        missions.interrupt(those, back_m, draw(those, 2 * turn))
         begin_m[at], leg_m[at], costs[at] = 0.0, from_charger_m, draw(those, 2 * turn + 1)
         way[at] = from_charger_m * costs[at]
     return way

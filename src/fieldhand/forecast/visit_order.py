@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fieldhand.errors import PlaceError
+from fieldhand.forecast.headings import cameras_of, in_rows
 from fieldhand.language import joined, message
 from fieldhand.orienteering.shortest_order import shortest_order
 from fieldhand.places.context import Context
@@ -116,11 +117,17 @@ def order_visits(drives: Drives, here: Place, places: Sequence[Place], home: Pla
 
 
 def visits_in_order(
-    node: ForEach, drives: Drives, here: Place, places: Sequence[Place], home: Place | None
+    node: ForEach,
+    drives: Drives,
+    here: Place,
+    places: Sequence[Place],
+    home: Place | None,
+    robot: RobotProfile | None = None,
 ) -> tuple[Place, ...]:
     """Return the places that a for-each drives to, in order, each with its stand.
 
-    With ``at_most``, a given order is truncated; with a free order, places are selected by nearest neighbour.
+    With ``at_most``, a given order is truncated; with a free order, places are selected by nearest neighbour. A robot
+    with a camera on one side that does not turn on the spot then goes along each row in one direction.
     """
     kept = list(with_stands(drives, here, places))
     if node.at_most is not None and node.at_most < len(kept):
@@ -131,7 +138,9 @@ def visits_in_order(
             kept = kept[: node.at_most]
     if node.order == "given":
         return tuple(kept)
-    return tuple(kept[i] for i in order_visits(drives, here, kept, home))
+    ordered = tuple(kept[i] for i in order_visits(drives, here, kept, home))
+    camera = None if robot is None or robot.turn_deg_s is not None else cameras_of(node, robot).get(node.id)
+    return in_rows(drives, ordered, camera) if camera is not None and camera.lateral else ordered
 
 
 def steps_in_order(node: AnyOrder, site: Site, drives: Drives, context: Context, home: Place | None) -> tuple[int, ...]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from fieldhand.forecast import visit_order
 from fieldhand.forecast.expected_charge import ExpectedCharge
+from fieldhand.forecast.headings import Facing, cameras_of, facing, turn_s, way_in
 from fieldhand.forecast.mission_state import Spent, Work
 from fieldhand.forecast.possible_answers import BranchReadings
 from fieldhand.forecast.resource_limits import slower_s_per_m, speed_of
@@ -17,7 +18,9 @@ from fieldhand.forecast.walk_steps import Decision, DecisionKind, NodeAnswer, St
 from fieldhand.forecast.working import end_of, use_of
 from fieldhand.places.context import Context, VisitedIds
 from fieldhand.places.reading_series import ReadingSeries, TakenReading
+from fieldhand.robot.camera import Camera
 from fieldhand.robot.model import RobotProfile
+from fieldhand.site.bearings import first_heading, last_heading
 from fieldhand.site.model import Place, Site
 from fieldhand.task.collected import collected
 from fieldhand.task.frames import Task
@@ -28,7 +31,7 @@ from fieldhand.task.run import PlanRun
 if TYPE_CHECKING:
     from fieldhand.forecast.charged_visits import ChargedVisits
     from fieldhand.orienteering.preview import Preview
-    from fieldhand.site.drives import Drives
+    from fieldhand.site.drives import Drive, Drives
     from fieldhand.site.working.stretch import Stretch
 
 
@@ -112,6 +115,9 @@ class WalkState:
         self._standing = self.context.here
         self._speed = speed_of(task.constraints, robot)
         self._slow = slow_ground(task.constraints, site, robot)
+        self._cameras = cameras_of(task.composition.plan, robot)
+        #: Heading of the robot in degrees clockwise from north; None if it is unknown, or never matters.
+        self._heading_deg: float | None = None
         self.steps: list[WalkStep] = []
         self.decisions: list[Decision] = []
         #: Tests of readings that were not taken: node id and reading.
@@ -159,19 +165,21 @@ class WalkState:
         self.note(self._stretch_step(node, stretch, end))
         self.worked.add(len(self.stops) - 1)
         self.stops.append(end)
+        self._heading_deg = last_heading(stretch.points)
         self._stand(replace(self.context, here=end, visited=self._visited))
 
     def _stretch_step(self, node: WorkAlong, stretch: Stretch, end: Place, *, reached: bool = True) -> WalkStep:
         use = use_of(stretch, node, self.task.constraints, self.robot, self._slow)
+        turn = turn_s(self.robot, self._heading_deg, first_heading(stretch.points))
         return WalkStep(
             node=node,
             kind="work",
             context=self.context,
             places=(end,),
-            seconds=use.seconds,
+            seconds=use.seconds + turn,
             joules=use.metres * self.robot.energy.drive_j_per_m + use.implement_j,
             stretch=stretch,
-            work=use.work(self._speed),
+            work=use.work(self._speed) + Work(seconds=turn),
             reached=reached,
         )
 
@@ -211,7 +219,9 @@ class WalkState:
 
     def _leg(self, node: Node, kind: StepKind, place: Place) -> WalkStep:
         self.bound_for = node.id
-        drive = self.drives.between(self._standing, place)
+        camera = self._cameras.get(node.id) if kind == "drive" else None
+        drive = way_in(self.drives, self.robot, self._standing, place, camera)
+        turn, heading = self._turn(drive, camera)
         slower = 0.0 if kind == "exit" else self.slower_s_per_m
         if self._slow and drive.length_m:
             slower += self._slow.extra_s(drive.points, 1.0 / (1.0 / self._speed + slower)) / drive.length_m
@@ -221,10 +231,33 @@ class WalkState:
             context=self.context,
             places=(drive.end,),
             drive=drive,
-            seconds=drive.length_m * (1.0 / self._speed + slower),
+            seconds=drive.length_m * (1.0 / self._speed + slower) + turn,
             joules=drive.length_m * self.robot.energy.drive_j_per_m,
             slower_s_per_m=slower,
+            heading_deg=heading,
+            turn_s=turn,
         )
+
+    def _turn(self, drive: Drive, camera: Camera | None) -> tuple[float, float | None]:
+        """Return the seconds of turning on the spot before and after a drive, and the heading after it."""
+        if not self._cameras and self.robot.turn_deg_s is None:
+            return 0.0, None
+        along = self.drives.heading_after(drive)
+        before, self._heading_deg = self._heading_deg, along
+        if along is None:
+            self._heading_deg = before
+        self._heading_deg = facing(self.drives, self.robot, drive.end, camera, self._heading_deg).heading_deg
+        turn = turn_s(self.robot, before, first_heading(drive.points))
+        return turn + turn_s(self.robot, last_heading(drive.points), self._heading_deg), self._heading_deg
+
+    def _face(self, camera: Camera | None) -> tuple[float, Facing]:
+        """Turn the robot for a camera; return the seconds that takes, and its heading."""
+        if camera is None:
+            return 0.0, Facing(heading_deg=self._heading_deg)
+        faces = facing(self.drives, self.robot, self.context.here, camera, self._heading_deg)
+        turn = turn_s(self.robot, self._heading_deg, faces.heading_deg)
+        self._heading_deg = faces.heading_deg
+        return turn, faces
 
     def decide(self, node: Node, kind: DecisionKind) -> bool:
         """Return the answer to a question that the walk cannot determine itself, and record it as a decision."""
@@ -284,6 +317,8 @@ class WalkState:
             self.sampled.append(step)
             if step.drive is not None:
                 self.samples.drive(metres, step.slower_s_per_m)
+                if step.turn_s:
+                    self.samples.work(Work(seconds=step.turn_s))
             elif step.kind == "work":
                 self.samples.work(step.work)
             elif step.kind in ("act", "wait", "charge"):

@@ -83,6 +83,10 @@ class WalkStep:
         reached: False for a drive that is blocked just before its end.
         stretch: Stretch of work along a path.
         work: Use of a stretch in the form of work, whose metres are driven at the mission's speed.
+        heading_deg: Heading at the end of a drive or during an act, in degrees clockwise from north; None if it is
+            unknown, or of no importance for this robot.
+        turn_s: Seconds of a drive in which the robot turns on the spot, before and after it.
+        sees: True if the camera of an act has the plant in view, False if not; None without a camera.
     """
 
     node: Node
@@ -100,6 +104,9 @@ class WalkStep:
     reached: bool = True
     stretch: Stretch | None = None
     work: Work = field(default_factory=Work)
+    heading_deg: float | None = None
+    turn_s: float = 0.0
+    sees: bool | None = None
 
     __repr__ = short_repr
 
@@ -145,7 +152,9 @@ class Walk:
 
 
 def work_in(step: WalkStep) -> Work:
-    """Return the work of a step at one place (action, wait or charge), or the time that a slower drive adds."""
+    """Return the work of a step at one place (action, wait or charge), or the time that slower driving and turning add
+    to a drive.
+    """
     if step.kind in ("act", "wait", "charge"):
         return Work(seconds=step.seconds, joules=step.joules)
-    return Work(seconds=0.0 if step.drive is None else step.drive.length_m * step.slower_s_per_m)
+    return Work(seconds=step.turn_s + (0.0 if step.drive is None else step.drive.length_m * step.slower_s_per_m))

@@ -260,14 +260,26 @@ def _perimeter(
     outside = not any(ground.equals(polygon) for polygon in inner) and not ground.equals(
         unary_union([zone.polygon for zone in site.zones_of("boundary")])
     )
-    return perimeter_units(
+    units = perimeter_units(
         drives,
         ground,
         0.0 if width is None else width / 2.0,
         from_edge_m=from_edge_m,
         outside=outside,
         mounted="both" if implement is None else implement.side,
+        side=None if node.sides == "one" or node.sides == "both" else node.sides,
     )
+    return _headed(units, node, site)
+
+
+def _headed(units: tuple[WorkUnit, ...], node: WorkAlong, site: Site) -> tuple[WorkUnit, ...]:
+    """Return units driven towards the side of the compass that a node names, if it names one.
+
+    Raises:
+        PlaceError: A unit runs across that direction, or can be driven only the other way.
+    """
+    side = node.heading
+    return headed(units, side, site.name) if side in ("north", "east", "south", "west") else units
 
 
 def _units(
@@ -285,8 +297,7 @@ def _units(
     else:
         width = implement.width_m if implement is not None and implement.covers else None
         units = aisle_units(drives, trees, AisleWork(width_m=width, every=node.every))
-    side = node.heading
-    return headed(units, side, site.name) if side in ("north", "east", "south", "west") else units
+    return _headed(units, node, site)
 
 
 def _laps(stretches: tuple[Stretch, ...], laps: int) -> tuple[Stretch, ...]:

@@ -67,6 +67,7 @@ def carry_out(
     watched: Callable[[Guard], Guard] = lambda guard: guard,
     orders: Callable[[], OperatorCommand | None] = lambda: None,
     log: InputLog | None = None,
+    images: Path | None = None,
 ) -> Run:
     """Carry a mission out on a vehicle, and return what happened.
 
@@ -81,6 +82,7 @@ def carry_out(
         watched: Wraps the budget guard, for example to time its decisions.
         orders: Returns an operator command that has not been carried out yet, or None.
         log: Records every external input, so that the mission can be resumed.
+        images: Folder in which the images of captures are saved; None to save none.
 
     Raises:
         NotApprovedError: The Task was approved for another site or robot than that of the vehicle.
@@ -88,6 +90,7 @@ def carry_out(
     """
     from fieldhand.evaluation.budget_guard import BudgetGuard
     from fieldhand.evaluation.failsafe import BudgetFailsafe
+    from fieldhand.execution.images.folder import ImageFolder
     from fieldhand.execution.mission_runner import run
     from fieldhand.forecast.visit_order import drives_for
 
@@ -116,8 +119,9 @@ def carry_out(
         orders=orders,
         log=log,
         simulated=vehicle.simulated,
+        images=None if images is None else ImageFolder(mission_folder=images, mission=task.id, robot=robot.name),
     )
-    return Run(mission=mission, result=result)
+    return Run(mission=mission, result=result, images=images)
 
 
 def simulate(

@@ -60,10 +60,12 @@ class Run:
     Attributes:
         mission: The approved mission.
         result: How it ended, what it took, and its events.
+        images: Folder with the images of its captures; None if none were saved.
     """
 
     mission: ApprovedMission
     result: Result
+    images: Path | None = None
 
     __repr__ = short_repr
 
@@ -122,6 +124,7 @@ class Run:
             self.result.events,
             self.assessment,
             mission.estimate,
+            images=self.images,
         )
 
     def _repr_html_(self) -> str:
@@ -157,6 +160,7 @@ def report(
     *,
     signed: str = "",
     hashes: Sequence[tuple[str, str]] = (),
+    images: Path | None = None,
 ) -> ReportFiles:
     """Write the report of a mission: one page, and the observations as CSV and GeoJSON.
 
@@ -168,6 +172,7 @@ def report(
         forecast: The forecast that was approved.
         signed: Name of the signer, in words; empty for an unsigned one.
         hashes: SHA-256 of further files that the mission rests on, each with a name.
+        images: Folder of the mission with its images; None if it is unknown.
 
     Raises:
         OutputError: The folder cannot be written.
@@ -185,4 +190,5 @@ def report(
         estimate=forecast,
         signed=signed,
         hashes=hashes,
+        images=images,
     )

@@ -26,6 +26,7 @@ from fieldhand.missions.folder import (
     robot_at_start,
     signed_inputs,
 )
+from fieldhand.missions.images import image_of
 from fieldhand.missions.mission_status import (
     Status,
     events_of,
@@ -51,6 +52,7 @@ __all__ = [
     "events_of",
     "exists",
     "find",
+    "image_of",
     "is_running",
     "last_command",
     "lines_after",

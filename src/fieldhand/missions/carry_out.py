@@ -76,6 +76,7 @@ def carry_out(
             watched=watched,
             orders=latest(stored.direct_command, command_file.current),
             log=journal,
+            images=folder,
         )
         return run.result
 

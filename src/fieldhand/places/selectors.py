@@ -49,6 +49,7 @@ from fieldhand.places.points.beside import Beside
 from fieldhand.places.points.grid import Grid
 from fieldhand.places.points.points_in import PointsIn
 from fieldhand.places.points.spaced import Spaced
+from fieldhand.places.points.straight_line import StraightLine
 from fieldhand.places.points.transect import Transect
 from fieldhand.places.rows.across import Across
 from fieldhand.places.rows.along_row import AlongRow
@@ -120,5 +121,6 @@ SELECTORS: tuple[type[Selector], ...] = (
     Beside,
     Grid,
     Transect,
+    StraightLine,
     UnionOf,
 )

@@ -218,6 +218,7 @@ def _conclude(reviews: ReviewCache, history: Path, warn: Callable[[str], None], 
         history=history,
         at=_now(),
         bundle=stored.bundle,
+        images=stored.folder,
     )
     if done.history_error:
         warn(done.history_error)

@@ -49,6 +49,7 @@ def mismatches(task: Task, site: Site, robot: RobotProfile) -> tuple[PlanMismatc
     waits = [watch for watch in task.composition.watches if watch.response == "wait"]
     longest = tuple(robot.patience.event_wait_s if one.at_most_s is None else one.at_most_s for one in waits)
     facts, plan = request_facts(request, robot, site), replace(plan_facts(task, sizes.of_node), waits=longest)
+    plan = _with_strips(plan, facts, robot)
     found = [
         *_sensors(facts, plan, robot),
         *_counts(facts, plan, sizes),
@@ -124,6 +125,24 @@ def _counts(facts: RequestFacts, plan: PlanFacts, sizes: SelectorSizes) -> Itera
             what=number.what,
         )
         yield PlanMismatch(kind="count", what=what_differs, node=number.node)
+
+
+def _with_strips(plan: PlanFacts, facts: RequestFacts, robot: RobotProfile) -> PlanFacts:
+    """Return the facts with the stated width of a strip in place of the laps that make it: "a strip 3 m wide"."""
+    lengths = [amount.values[0] for amount in facts.amounts if amount.kind == "length"]
+    numbers = list(plan.numbers)
+    for node in plan.nodes:
+        action = None if node.work is None else robot.action.get(node.work.action)
+        wide = None if action is None or action.implement is None else action.implement.width_m
+        if node.work is None or node.work.mode != "perimeter" or not wide:
+            continue
+        laps = node.work.laps
+        stated = next((x for x in lengths if wide * (laps - 1) < x < wide * (laps + 1)), None)
+        if stated is not None:
+            numbers = [one for one in numbers if one.node != node.id or one.field != "laps"]
+            width = PlannedNumber(node=node.id, what="width of a strip", value=stated, kind="length", field="width")
+            numbers.append(width)
+    return replace(plan, numbers=tuple(numbers))
 
 
 def _amounts_to_stated_count(facts: RequestFacts, plan: PlanFacts, node: str, sizes: SelectorSizes) -> bool:

@@ -120,6 +120,9 @@ def _dropped(facts: RequestFacts, plan: PlanFacts, amount: StatedAmount) -> Iter
     have += [x for test in plan.tests for x in test.values]
     have += [node.dwell_s for node in plan.nodes if node.dwell_s] if amount.kind == "time" else []
     have += plan.waits
+    rests = [node.dwell_s for node in plan.nodes if node.dwell_s]
+    if amount.kind == "time" and rests and sum(rests) <= value < sum(rests) + max(rests):
+        return  # "every 7 minutes over the next hour"
     if amount.kind == "length":
         have += [number.value for number in plan.numbers if number.kind == "length"]
         have += _parameters(plan)

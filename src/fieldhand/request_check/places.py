@@ -47,6 +47,7 @@ _BESIDE_THEM = re.compile(
     r"\b(?:(?:either|each|both) sides?|left and right|right and left) of (?:it|them|these|those|each)\b"
     r"|\b(?:their|its) (?:\w+ )?neighbou?rs\b"
     r"|\bplants? (?:\w+ )?(?:next to|beside) (?:it|them|each)\b|\bneighbou?rs? of each\b"
+    r"|\band (?:\w+ ){0,3}the (?:nearest|closest) \w+"
     r"|\b(?:trees?|vines?|ones?) (?:next to|beside|alongside) (?:it|them|each)\b"
 )
 #: Pattern of a half that is named by a place near it, or by words that no map explains.
@@ -152,6 +153,7 @@ def _rows(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
         return
     counted_there = _counts_rows_of_area(facts, plan)
     ranks = {rank for _, row in rows for rank in _ranks(row.first, site)} if counted_there else set()
+    ranks |= {int(row.first) + step for _, row in rows for step in (-1, 1) if _is_aisle_of(row, plan)}
     for amount in facts.amounts:
         if int(amount.values[0]) in ranks or not _is_row(facts, amount) or _of_named_tree(facts, plan, amount):
             continue
@@ -174,6 +176,11 @@ def _rows(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
                     what=message("the plan names row {name}, but the request does not", name=name),
                     node=node,
                 )
+
+
+def _is_aisle_of(row: s.Rows, plan: PlanFacts) -> bool:
+    """Return True if a place of the plan is in the aisle beside a row."""
+    return any(row in x.walk() for _, x in plan.having(s.Beside))
 
 
 def _counts_rows_of_area(facts: RequestFacts, plan: PlanFacts) -> bool:
@@ -262,13 +269,16 @@ def _areas(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
     for name in sorted(facts.zones - held - rows - beds - in_names):
         if name in w.COMPASS and w.COMPASS[name] <= pointed:
             continue  # "from the north" or "the northernmost" does not mean a block called "North"
-        if _is_line_of_lanes(name, facts, plan):
+        if _is_line_of_lanes(name, facts, plan) or _is_side_of_edge(name, facts, plan):
             continue
         if not any(name in other for other in held) and not _stands_in(plan, name, site):
             yield PlanMismatch(
                 kind="place", what=message("the request names '{name}', but the plan does not", name=name)
             )
+    whole_sites = {zone.name for zone in site.zones if zone.kind == "boundary"}
     for node, name in plan.areas:
+        if name in whole_sites and not site.trees:
+            continue  # "the four corners" are those of the site
         words = {t.text for t in _tokens(name)}
         words |= {f"{word}s" for word in words if name.rpartition(" ")[2].isdecimal()}  # "beds 2 to 6" name bed 3
         words |= {f"{word}s" for word in name.split()[:-1]}  # "the orchids" name the orchid patch
@@ -292,6 +302,12 @@ def _is_line_of_lanes(name: str, facts: RequestFacts, plan: PlanFacts) -> bool:
         rf"\b(?:parallel (?:to|with)|in line with|lined up with|line of) (?:\w+ )?{re.escape(name)}\b", facts.text
     )
     return said is not None and any(one.heading != "any" for one in plan.works)
+
+
+def _is_side_of_edge(name: str, facts: RequestFacts, plan: PlanFacts) -> bool:
+    """Return True if one side of an edge is worked, and the request names the area on that side: "the paddock side"."""
+    said = re.search(rf"\b{re.escape(name)}(?:'?s)? side\b", facts.text)
+    return said is not None and any(one.mode == "perimeter" and one.sides not in ("one", "both") for one in plan.works)
 
 
 def _is_a_row_of(name: str, plan: PlanFacts) -> bool:
@@ -389,6 +405,7 @@ def _sides(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
     )
     headings = [work.heading for work in plan.works if work.heading != "any"]
     held |= {side for side in spoken if any(_runs_along(heading, side) for heading in headings)}
+    held |= {work.sides for work in plan.works}
     if not any(x.counts_from_a_side for _, x in plan.selectors):
         for side in sorted(spoken - held):
             yield PlanMismatch(
@@ -419,7 +436,7 @@ def _sides(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
 def _attributes(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
     """Yield attribute values of the request that the plan lacks, and the reverse."""
     held = {" ".join(t.text for t in _tokens(str(value))) for _, _, value in plan.values}
-    for name in {x.first for _, x in plan.having(s.Rows) if isinstance(x, s.Rows) and x.first}:
+    for name in {end for _, x in plan.having(s.Rows) if isinstance(x, s.Rows) for end in (x.first, x.last) if end}:
         held |= _values_in_row(name, site, shared=True)
     for tree in {tree for _, tree in plan.trees if tree in site.by_id}:
         held |= {_name_text(str(value)) for value in site.by_id[tree].properties.values()}

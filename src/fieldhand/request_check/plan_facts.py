@@ -164,12 +164,12 @@ class PlanFacts:
     def sides(self) -> dict[Side, str]:
         """Return the compass sides named by selectors, each with a node; none for all four corners together."""
         found: dict[Side, str] = {}
-        visited: dict[Selector, set[str]] = {}
+        visited: dict[tuple[Selector, str], set[str]] = {}
         for _, x in self.selectors:
             if isinstance(x, s.Corners):
-                visited.setdefault(x.of, set()).update(x.which)
+                visited.setdefault((x.of, x.zone), set()).update(x.which)
         for node, x in self.selectors:
-            if isinstance(x, s.Corners) and len(visited[x.of]) == 4:
+            if isinstance(x, s.Corners) and len(visited[x.of, x.zone]) == 4:
                 continue  # together they are all four sides, which the request need not mention
             for side in x.sides:
                 found.setdefault(side, node)

@@ -62,6 +62,7 @@ def _numbers(timing: Timing) -> Iterator[float]:
 def _of_schedule(schedule: Schedule) -> Iterator[float]:
     yield from (float(schedule.every_min), schedule.every_min / 60)
     yield from (float(schedule.every_days), schedule.every_days / 7)
+    yield float(len(schedule.at))  # "three times a day"
     if schedule.done_by_min and len(schedule.at) == 1 and schedule.at[0].sun is None:
         hour, minute = (int(part) for part in _NUMBER.findall(schedule.at[0].clock))
         end = (hour * 60 + minute + schedule.done_by_min) % (24 * 60)

@@ -16,6 +16,7 @@ from fieldhand.request_check.mismatch import PlanMismatch
 from fieldhand.request_check.request_facts import RequestFacts
 
 _PARTS = "morning|afternoon|evening|night|midnight|noon|midday|lunch|lunchtime|dawn|dusk|sunrise|sunset|nightfall"
+_UNITS_S = {"minute": 60.0, "hour": 3600.0}
 _UNITS = "day|night|week|weekend|fortnight|month|year|season|hour|minute"
 _DAYS = "monday|tuesday|wednesday|thursday|friday|saturday|sunday|weekday|weekend|workday"
 _MONTHS = "january|february|march|april|may|june|july|august|september|october|november|december"
@@ -73,6 +74,15 @@ _OTHER_TIMES = frozenset({"again", "later", "now", "then", "afterwards"})
 _OF_EARLIER = frozenset({"from", "of", "since", "until"})
 #: Words with which a reason begins that may tell of the past ("because we did that row yesterday").
 _REASON = _pattern((r"because", r"since (?:we|i|it|they|he|she|the|my|our|row|tree)"))
+#: What tells that something was done: the beginning of a sentence ("I photographed row 1 yesterday"), and words before
+#: a time ("rows 1 and 2 were done this morning"), which describe no places ("that were done").
+_DID = re.compile(
+    r"(?:i|we|they|he|she|somebody|someone)(?:'ve|'s)?(?: have| has| had| already| just)* (?:did|done|\w+ed)\b"
+)
+_WAS_DONE = re.compile(
+    r"(?<!that )(?<!which )(?<!who )(?<!where )(?<!whatever )(?<!what )(?<!those )(?<!\S)(?:is|are|was|were|been|got)"
+    rf"(?: already| all)* (?:{_WORKED}|finished|completed)(?: already| earlier)?$"
+)
 
 
 def unsupported_words(
@@ -106,8 +116,9 @@ def unsupported_words(
             told = _is_told(match, facts, sentence, first, last := first + len(match[0].split()), past=past)
             own = pattern is not _DONE and not facts.named.isdisjoint(range(first, last))
             held = any(states(match[0], period) for period in periods)
-            rests = any(
-                first - 1 <= one.index < last and one.kind == "time" and waits & {*one.values} for one in facts.amounts
+            stated = [one for one in facts.amounts if first - 1 <= one.index < last and one.kind == "time"]
+            rests = any(waits & {*one.values} for one in stated) or bool(
+                waits & {_UNITS_S.get(word) for word in match[0].split()}
             )
             if not (told or remark or speed or own or held or rests):
                 words = w.quoted(facts.tokens[first:last])
@@ -123,8 +134,11 @@ def _is_told(match: re.Match[str], facts: RequestFacts, sentence: int, first: in
         [facts.tokens[k].text for k in said if k < first],
         [facts.tokens[k].text for k in said if k >= last],
     )
+    if _WAS_DONE.search(" ".join(before)) is not None:
+        return True
     if past:
-        return _REASON.search(" ".join(before)) is not None
+        told = " ".join(before)
+        return _REASON.search(told) is not None or _DID.match(f"{told} {match[0]}".strip()) is not None
     if _START.fullmatch(match[0]) is None or len(_START.findall(facts.text)) > 1:
         return False
     other = _OTHER_TIMES & {*before, *after} or _OF_EARLIER & {*before[-1:]}

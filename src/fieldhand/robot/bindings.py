@@ -19,16 +19,26 @@ from fieldhand.short_repr import short_repr
 #: Supported ROS 2 releases. The definitions of nav2_msgs differ between them.
 Distro = Literal["humble", "iron", "jazzy", "kilted"]
 
-#: Action type for driving: one pose at a time, all waypoints of the way at once, or waypoints in degrees.
+#: Action type for driving: one pose at a time, all waypoints of the way at once, waypoints in degrees, the way itself,
+#: or that of Nav2's route server.
 NavigationType = Literal[
-    "nav2_msgs/action/NavigateToPose", "nav2_msgs/action/NavigateThroughPoses", "nav2_msgs/action/FollowGPSWaypoints"
+    "nav2_msgs/action/NavigateToPose",
+    "nav2_msgs/action/NavigateThroughPoses",
+    "nav2_msgs/action/FollowGPSWaypoints",
+    "nav2_msgs/action/FollowPath",
+    "nav2_msgs/action/ComputeAndTrackRoute",
 ]
+
+#: Those with which the robot follows the approved way itself.
+EXACT_TYPES = ("nav2_msgs/action/FollowPath", "nav2_msgs/action/ComputeAndTrackRoute")
 
 #: Action type for a path on which an implement works: waypoints to drive through, or the path itself.
 WorkingType = Literal["nav2_msgs/action/NavigateThroughPoses", "nav2_msgs/action/FollowPath"]
 
 #: Nodes of Nav2 without which nothing drives.
 NAVIGATION_NODES = ("bt_navigator", "controller_server", "planner_server")
+#: The same where the way is followed without the navigator, and where the route server determines it.
+FOLLOWING_NODES, ROUTE_NODES = ("controller_server",), ("route_server", "controller_server")
 
 #: Meaning of a navigation failure code for a mission: a fault kind of ``execution/drivers/protocol.py``.
 NavigationFault = Literal["failed", "blocked", "lost"]
@@ -87,6 +97,27 @@ class NextMessage:
     reliable: bool = False
 
 
+#: Message types of images.
+ImageType = Literal["sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class NextImage:
+    """An image taken from the next message of a topic after the capture began, or after its call returned.
+
+    Attributes:
+        topic: Name of the topic, to which the program subscribes only during the capture.
+        type: Message type.
+        within_s: Maximum wait for the message, in seconds.
+        reliable: Request reliable delivery.
+    """
+
+    topic: str
+    type: ImageType
+    within_s: float
+    reliable: bool = False
+
+
 @dataclass(frozen=True, kw_only=True)
 class CallBinding:
     """A call of a ROS action or service that makes a capture.
@@ -101,6 +132,7 @@ class CallBinding:
         success: Path of the success flag; empty if there is none.
         message: Path of the text that explains a failure; empty if there is none.
         within_s: Maximum time from sending the request to the result, in seconds.
+        images: Path of each image in the result or response, by its name.
     """
 
     kind: Literal["action", "service"]
@@ -111,6 +143,7 @@ class CallBinding:
     success: str = ""
     message: str = ""
     within_s: float
+    images: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -146,11 +179,13 @@ class ActionBinding:
         topics: Quantities read from topics, each from the next message after the call; if none arrives in time, from
             the last message since the call was sent.
         switch: Switch of an implement; None for an action at a place.
+        images: Images taken from topics, by name, in the same way.
     """
 
     call: CallBinding | None = None
     topics: Mapping[str, NextMessage] = field(default_factory=dict)
     switch: SwitchBinding | None = None
+    images: Mapping[str, NextImage] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -190,7 +225,8 @@ class NavigationBinding:
         extra_s: Seconds added to the maximum duration of a drive.
         working: Action type for the paths of implements; empty to use ``type``.
         working_action: Name of that action.
-        controller: Controller that follows these paths; empty for Nav2's default.
+        controller: Controller that follows paths; empty for Nav2's default.
+        goal_checker: Goal checker that ends them; empty for Nav2's only one.
         nodes: Lifecycle nodes of the navigation, which must be active; one that does not exist is not asked.
         follow_path: Action of Nav2's controller, which may drive on when the navigator is gone; empty for none.
         stuck_s: Seconds without coming nearer to the goal after which a drive counts as blocked.
@@ -214,6 +250,7 @@ class NavigationBinding:
     working: WorkingType | Literal[""] = ""
     working_action: str = ""
     controller: str = ""
+    goal_checker: str = ""
     nodes: tuple[str, ...] = NAVIGATION_NODES
     follow_path: str = "follow_path"
     stuck_s: float = 60.0
@@ -237,6 +274,14 @@ class PositionBinding:
 @dataclass(frozen=True, kw_only=True)
 class BatteryBinding:
     """The battery charge in percent, usually from a ``sensor_msgs/msg/BatteryState``, whose percentage is 0 to 1."""
+
+    topic: TopicBinding
+    value: FieldBinding
+
+
+@dataclass(frozen=True, kw_only=True)
+class OdometerBinding:
+    """The metres that the robot has driven since it was switched on, which it counts whoever drives it."""
 
     topic: TopicBinding
     value: FieldBinding
@@ -279,6 +324,7 @@ class Ros2Bindings:
         position: Position source.
         battery: Battery charge.
         odometry: ``nav_msgs/msg/Odometry`` along which driven metres are counted; None to count them along the fixes.
+        odometer: Counter of all metres, from which those driven during a power cut are known; None to estimate them.
         stop: Emergency stop; None if the robot has none.
         actions: Bindings by action name; an action without one cannot be executed on this robot.
         interfaces: Definitions of non-standard types by type, as in ``.msg``, ``.srv`` and ``.action`` files.
@@ -292,6 +338,7 @@ class Ros2Bindings:
     position: PositionBinding
     battery: BatteryBinding
     odometry: TopicBinding | None = None
+    odometer: OdometerBinding | None = None
     stop: StopBinding | None = None
     actions: Mapping[str, ActionBinding] = field(default_factory=dict)
     interfaces: Mapping[str, str] = field(default_factory=dict)

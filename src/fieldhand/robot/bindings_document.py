@@ -14,8 +14,8 @@ from typing import Annotated, Literal, get_args
 from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, model_validator
 
 from fieldhand.robot.bindings import (
-    NAVIGATION_NODES,
     Distro,
+    ImageType,
     NavigationFault,
     NavigationType,
     RequestValue,
@@ -28,6 +28,8 @@ _LONGEST_NAME = 255
 #: Maximum length of an interface definition in characters, and maximum number of definitions: they are part of every
 #: bundle.
 _LONGEST_TEXT, _MOST_INTERFACES = 20_000, 50
+#: Maximum number of images of a capture.
+_MOST_IMAGES = 8
 #: Number of separator lines (``---``) in the definition of each kind of interface.
 _SECTIONS = {"msg": 0, "srv": 1, "action": 2}
 
@@ -152,6 +154,15 @@ class NextMessageDocument(_ConvertedDocument):
     reliable: bool = False
 
 
+class NextImageDocument(Keyed):
+    """An image taken from the next message of a topic."""
+
+    topic: RosName
+    type: ImageType = "sensor_msgs/msg/Image"
+    within_s: TimeLimitField | None = None
+    reliable: bool = False
+
+
 class _CallDocument(Keyed):
     """The keys shared by action and service calls."""
 
@@ -161,6 +172,7 @@ class _CallDocument(Keyed):
     success: FieldPath | None = None
     message: FieldPath | None = None
     within_s: TimeLimitField | None = None
+    images: Annotated[dict[IdentifierField, FieldPath], Field(max_length=_MOST_IMAGES)] = Field(default_factory=dict)
 
 
 class ActionCallDocument(_CallDocument):
@@ -228,18 +240,24 @@ class ActionBindingDocument(Keyed):
     action: ActionCallDocument | None = None
     service: ServiceCallDocument | None = None
     topics: dict[str, NextMessageDocument] = Field(default_factory=dict)
+    images: Annotated[dict[IdentifierField, NextImageDocument], Field(max_length=_MOST_IMAGES)] = Field(
+        default_factory=dict
+    )
     switch: SwitchDocument | None = None
 
     @model_validator(mode="after")
     def _by_something(self) -> ActionBindingDocument:
         if self.switch is not None:
-            if self.action is not None or self.service is not None or self.topics:
-                raise ValueError("switch belongs to an implement; leave action, service and topics out")
+            if self.action is not None or self.service is not None or self.topics or self.images:
+                raise ValueError("switch belongs to an implement; leave action, service, topics and images out")
             return self
         if self.action is not None and self.service is not None:
             raise ValueError("both action and service are given; give only one of them")
-        if self.action is None and self.service is None and not self.topics:
-            raise ValueError("nothing performs the action; give action, service or topics")
+        call = self.action or self.service
+        if call is None and not self.topics and not self.images:
+            raise ValueError("nothing performs the action; give action, service, topics or images")
+        if call is not None and (twice := sorted(call.images.keys() & self.images.keys())):
+            raise ValueError(f"the image {twice[0]} is given twice; keep it either in the call or in images")
         return self
 
 
@@ -271,7 +289,8 @@ class NavigationDocument(Keyed):
     working: Annotated[WorkingType, BeforeValidator(_navigation)] | None = None
     working_action: RosName | None = None
     controller: Annotated[str, Field(max_length=100)] = ""
-    nodes: Annotated[tuple[RosName, ...], Field(max_length=20)] = NAVIGATION_NODES
+    goal_checker: Annotated[str, Field(max_length=100)] = ""
+    nodes: Annotated[tuple[RosName, ...], Field(max_length=20)] | None = None
     follow_path: RosName | Literal[""] = "follow_path"
     stuck_s: TimeLimitField = 60.0
     most_recoveries: Annotated[int, BeforeValidator(no_bool), Field(ge=1, le=1000)] = 6
@@ -281,7 +300,11 @@ class NavigationDocument(Keyed):
         if self.type.endswith("/FollowGPSWaypoints"):
             if self.datum is not None or self.from_ll is not None:
                 raise ValueError("FollowGPSWaypoints takes degrees; leave datum and from_ll out")
-        elif (self.datum is None) == (self.from_ll is None):
+        elif self.type.endswith("/ComputeAndTrackRoute") and self.working not in (None, "nav2_msgs/action/FollowPath"):
+            raise ValueError("with ComputeAndTrackRoute the controller follows every path; leave working out")
+        if self.type.endswith("/FollowGPSWaypoints"):
+            return self
+        if (self.datum is None) == (self.from_ll is None):
             raise ValueError("give either datum (where the map frame lies) or from_ll (the service that knows it)")
         return self
 
@@ -306,6 +329,13 @@ class OdometryDocument(_TopicDocument):
 
     type: Literal["nav_msgs/msg/Odometry"] = "nav_msgs/msg/Odometry"
     stale_s: Stale = 3.0
+
+
+class OdometerDocument(_TopicDocument, _ConvertedDocument):
+    """The counter of all metres that the robot has driven."""
+
+    type: MessageType = "std_msgs/msg/Float64"
+    stale_s: Stale = 10.0
 
 
 class StopDocument(_TopicDocument):
@@ -333,6 +363,10 @@ class EventBindingDocument(_TopicDocument, _ConvertedDocument):
         return self
 
 
+#: Releases whose Nav2 has a route server.
+_WITH_ROUTES = ("jazzy", "kilted")
+
+
 class Ros2Document(Keyed):
     """The ``ros2`` part of a profile."""
 
@@ -343,6 +377,7 @@ class Ros2Document(Keyed):
     position: PositionDocument
     battery: BatteryDocument
     odometry: OdometryDocument | None = None
+    odometer: OdometerDocument | None = None
     stop: StopDocument | None = None
     actions: dict[IdentifierField, ActionBindingDocument] = Field(default_factory=dict)
     events: dict[IdentifierField, EventBindingDocument] = Field(default_factory=dict)
@@ -352,6 +387,8 @@ class Ros2Document(Keyed):
 
     @model_validator(mode="after")
     def _known_there(self) -> Ros2Document:
+        if self.navigation.type.endswith("/ComputeAndTrackRoute") and self.distro not in _WITH_ROUTES:
+            raise ValueError(f"Nav2 of {self.distro} has no route server; use FollowPath, or one of jazzy, kilted")
         if self.distro == "humble" and self.navigation.type.endswith("/FollowGPSWaypoints"):
             newer = ", ".join(name for name in get_args(Distro) if name != "humble")
             raise ValueError(f"Nav2 of humble has no FollowGPSWaypoints; use another type, or one of {newer}")

@@ -9,10 +9,13 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from fieldhand.robot.bindings import (
+    FOLLOWING_NODES,
+    NAVIGATION_NODES,
     PLACE_REFERENCES,
+    ROUTE_NODES,
     ActionBinding,
     BatteryBinding,
     CallBinding,
@@ -20,12 +23,15 @@ from fieldhand.robot.bindings import (
     EventBinding,
     FieldBinding,
     NavigationBinding,
+    NextImage,
     NextMessage,
+    OdometerBinding,
     PositionBinding,
     Ros2Bindings,
     StopBinding,
     SwitchBinding,
     TopicBinding,
+    WorkingType,
 )
 from fieldhand.robot.bindings_document import (
     ActionBindingDocument,
@@ -33,6 +39,7 @@ from fieldhand.robot.bindings_document import (
     EventBindingDocument,
     NavigationDocument,
     NextMessageDocument,
+    OdometerDocument,
     OdometryDocument,
     PositionDocument,
     ReadingDocument,
@@ -50,7 +57,7 @@ _TIMES, _LEAST_S = 3.0, 30.0
 #: Default wait for the next message of a topic, in seconds.
 _NEXT_S = 10.0
 
-Valued = ReadingDocument | NextMessageDocument | BatteryDocument | EventBindingDocument
+Valued = ReadingDocument | NextMessageDocument | BatteryDocument | OdometerDocument | EventBindingDocument
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,6 +88,9 @@ def bindings_of(document: ProfileDocument) -> Ros2Bindings | None:
         position=PositionBinding(fix=_topic(ros2.position), most_sigma_m=ros2.position.most_sigma_m),
         battery=BatteryBinding(topic=_topic(ros2.battery), value=_field(ros2.battery, ros2.battery.type, "percent")),
         odometry=None if ros2.odometry is None else _topic(ros2.odometry),
+        odometer=None
+        if ros2.odometer is None
+        else OdometerBinding(topic=_topic(ros2.odometer), value=_field(ros2.odometer, ros2.odometer.type, "m")),
         stop=None
         if ros2.stop is None
         else StopBinding(topic=_topic(ros2.stop), path=ros2.stop.path, stopped=ros2.stop.stopped),
@@ -93,6 +103,8 @@ def bindings_of(document: ProfileDocument) -> Ros2Bindings | None:
 def _binding_problems(document: ProfileDocument, ros2: Ros2Document) -> Iterator[ProfileProblem]:
     units = {name: quantity.unit for name, quantity in document.quantities.items()}
     yield from _unreadable(ros2.battery, ros2.battery.type, "percent", "ros2.battery")
+    if ros2.odometer is not None:
+        yield from _unreadable(ros2.odometer, ros2.odometer.type, "m", "ros2.odometer")
     yield from _event_problems(document, ros2)
     doable = document.doable
     for name, bound in ros2.actions.items():
@@ -232,7 +244,12 @@ def _place_and_unit(valued: Valued, type_name: str) -> tuple[str, str]:
 
 
 def _topic(
-    document: PositionDocument | BatteryDocument | OdometryDocument | StopDocument | EventBindingDocument,
+    document: PositionDocument
+    | BatteryDocument
+    | OdometryDocument
+    | OdometerDocument
+    | StopDocument
+    | EventBindingDocument,
 ) -> TopicBinding:
     return TopicBinding(
         topic=document.topic,
@@ -245,8 +262,12 @@ def _topic(
 
 def _navigation(document: NavigationDocument) -> NavigationBinding:
     datum = document.datum
-    values = document.model_dump(exclude={"datum", "action", "from_ll", "speed_limit", "working", "working_action"})
-    working = document.working or ""
+    values = document.model_dump(
+        exclude={"datum", "action", "from_ll", "speed_limit", "working", "working_action", "nodes"}
+    )
+    working: WorkingType | Literal[""] = document.working or ""
+    if not working and document.type.endswith("/ComputeAndTrackRoute"):
+        working = "nav2_msgs/action/FollowPath"
     return NavigationBinding(
         **values,
         action=document.action or _USUAL_NAMES[document.type],
@@ -254,6 +275,7 @@ def _navigation(document: NavigationDocument) -> NavigationBinding:
         from_ll=document.from_ll or "",
         speed_limit=document.speed_limit or "",
         working=working,
+        nodes=_USUAL_NODES.get(document.type, NAVIGATION_NODES) if document.nodes is None else document.nodes,
         working_action=document.working_action or (_USUAL_NAMES[working] if working else ""),
     )
 
@@ -264,6 +286,12 @@ _USUAL_NAMES = {
     "nav2_msgs/action/NavigateThroughPoses": "navigate_through_poses",
     "nav2_msgs/action/FollowGPSWaypoints": "follow_gps_waypoints",
     "nav2_msgs/action/FollowPath": "follow_path",
+    "nav2_msgs/action/ComputeAndTrackRoute": "compute_and_track_route",
+}
+#: Nodes without which nothing drives, where they are not those of the navigator.
+_USUAL_NODES = {
+    "nav2_msgs/action/FollowPath": FOLLOWING_NODES,
+    "nav2_msgs/action/ComputeAndTrackRoute": ROUTE_NODES,
 }
 
 
@@ -281,6 +309,15 @@ def _action(bound: ActionBindingDocument, action: ActionDocument, units: dict[st
             )
             for name, message in bound.topics.items()
         },
+        images={
+            name: NextImage(
+                topic=image.topic,
+                type=image.type,
+                within_s=image.within_s or max(_NEXT_S, _TIMES * (action.duration_s or 0.0)),
+                reliable=image.reliable,
+            )
+            for name, image in bound.images.items()
+        },
     )
 
 
@@ -297,6 +334,7 @@ def _call(bound: ActionBindingDocument, action: ActionDocument, units: dict[str,
         success=call.success or "",
         message=call.message or "",
         within_s=call.within_s or max(_LEAST_S, _TIMES * (action.duration_s or 0.0)),
+        images=call.images,
     )
 
 

@@ -29,12 +29,17 @@ class Charging:
         curve: Power into the battery in watts at each charge in percent, ascending; linear in between, constant beyond
             the ends. The robot's own consumption is supplied by the charger and not included.
         until_percent: Charge up to which it charges by default.
+        most_percent: Charge up to which it charges before far places.
+        stranding_probability: Accepted probability that a mission that recharges falls to the stop level on the way to
+            the charger or home.
     """
 
     dock: Action
     undock: Action | None = None
     curve: tuple[tuple[float, float], ...]
     until_percent: float
+    most_percent: float = 100.0
+    stranding_probability: float = 0.0005
 
     @property
     def maneuvers(self) -> tuple[Action, ...]:

@@ -44,6 +44,8 @@ class ChargingDocument(Keyed):
     power_w: Positive | None = None
     curve: tuple[tuple[Percent, Positive], ...] | None = None
     until_percent: Annotated[NumberField, Field(gt=0, le=100)] = 90.0
+    most_percent: Annotated[NumberField, Field(gt=0, le=100)] = 100.0
+    stranding_probability: Annotated[NumberField, Field(gt=0, le=1)] = 0.0005
 
     @model_validator(mode="after")
     def _powered(self) -> ChargingDocument:
@@ -54,6 +56,10 @@ class ChargingDocument(Keyed):
                 raise ValueError("the curve is empty; give at least one [percent, watts]")
             if any(b[0] <= a[0] for a, b in itertools.pairwise(self.curve)):
                 raise ValueError("the percents of the curve do not ascend; sort it, with each percent once")
+        if self.most_percent < self.until_percent:
+            raise ValueError(
+                f"most_percent {self.most_percent:g} is below until_percent {self.until_percent:g}; give at least that"
+            )
         return self
 
     def charging(self) -> Charging:
@@ -63,4 +69,6 @@ class ChargingDocument(Keyed):
             undock=None if self.undock is None else self.undock.action(UNDOCK),
             curve=self.curve or ((0.0, self.power_w or 0.0),),
             until_percent=self.until_percent,
+            most_percent=self.most_percent,
+            stranding_probability=self.stranding_probability,
         )

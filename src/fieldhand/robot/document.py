@@ -12,6 +12,7 @@ from typing import Annotated
 from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from fieldhand.robot.bindings_document import Ros2Document
+from fieldhand.robot.camera import VIEW_DEG, CameraSide
 from fieldhand.robot.charging import DOCK, UNDOCK
 from fieldhand.robot.charging_document import ChargingDocument
 from fieldhand.robot.events import CLEAR_S, Unheard
@@ -160,6 +161,13 @@ class ImplementDocument(Keyed):
         return self
 
 
+class CameraDocument(Keyed):
+    """The camera of an action that takes pictures of a plant."""
+
+    side: CameraSide
+    view_deg: Annotated[NumberField, Field(ge=1, le=180)] = VIEW_DEG
+
+
 class ActionDocument(Keyed):
     """An action that the robot performs at a place, or with ``implement`` while it drives."""
 
@@ -175,6 +183,7 @@ class ActionDocument(Keyed):
     retry_wait_s: Wait | None = None
     in_doubt: InDoubtPolicy = "repeat"
     implement: ImplementDocument | None = None
+    camera: CameraDocument | None = None
 
     @model_validator(mode="after")
     def _at_a_place_or_along_a_path(self) -> ActionDocument:
@@ -189,6 +198,8 @@ class ActionDocument(Keyed):
                 "duration_s and energy_j belong to an action at a place; leave them out, implement has speed_m_s and"
                 " power_w"
             )
+        if self.camera is not None:
+            raise ValueError("camera belongs to an action at a place; leave it out, implement has side")
         if self.measures:
             raise ValueError(
                 "an implement measures nothing; leave measures out, and add an action that reads at a place"
@@ -298,6 +309,7 @@ class ProfileDocument(Keyed):
     standoff_m: Breadth | None = None
     slow_m_s: Positive | None = None
     corridor_m: Corridor | None = None
+    turn_deg_s: Annotated[NumberField, Field(ge=1, le=720)] | None = None
     retries: Retries = 1
     patience: PatienceDocument = PatienceDocument()
     energy: EnergyDocument

@@ -17,6 +17,7 @@ from fieldhand.files import FileFault, read_file
 from fieldhand.language import message, recalled
 from fieldhand.plugins import Plugin, active
 from fieldhand.robot.bindings_loader import ProfileProblem, binding_problems, bindings_of
+from fieldhand.robot.camera import Camera
 from fieldhand.robot.document import (
     ActionDocument,
     EventDocument,
@@ -262,6 +263,7 @@ def _profile(document: ProfileDocument, *, sha256: str, source: str) -> RobotPro
         speed_m_s=document.speed_m_s,
         slow_m_s=document.slow_m_s,
         corridor_m=document.corridor_m,
+        turn_deg_s=document.turn_deg_s,
         width_m=document.width_m,
         standoff_m=document.width_m / 2 + CANOPY_M if document.standoff_m is None else document.standoff_m,
         energy=Energy(
@@ -329,6 +331,7 @@ def _action(name: str, document: ActionDocument) -> Action:
         retry_wait_s=document.retry_wait_s,
         in_doubt=document.in_doubt,
         implement=None if document.implement is None else _implement(document.implement),
+        camera=None if document.camera is None else Camera(**document.camera.model_dump()),
     )
 
 

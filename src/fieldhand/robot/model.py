@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from fieldhand.robot.bindings import Ros2Bindings
+from fieldhand.robot.camera import Camera
 from fieldhand.robot.charging import Charging
 from fieldhand.robot.events import MonitoredEvent
 from fieldhand.robot.implement import Implement
@@ -93,6 +94,7 @@ class Action:
         in_doubt: Handling of a capture interrupted by a power cut: ``repeat``, or ``skip`` if doing it twice does harm,
             as cutting a leaf.
         implement: Properties of an action that is on while the robot drives; None for one that is done at a place.
+        camera: Camera for which the robot must face the plant; None if it may stand in any direction.
     """
 
     name: str
@@ -108,6 +110,7 @@ class Action:
     retry_wait_s: float | None = None
     in_doubt: InDoubtPolicy = "repeat"
     implement: Implement | None = None
+    camera: Camera | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -230,6 +233,8 @@ class RobotProfile:
         events: Events that it detects all the time.
         corridor_m: Greatest distance in metres from the way of a drive, beyond which the robot is stopped; None for
             any.
+        turn_deg_s: Speed of turning on the spot in degrees per second; None for a robot that turns only while it
+            drives.
     """
 
     name: str
@@ -249,6 +254,7 @@ class RobotProfile:
     slow_m_s: float | None = None
     events: tuple[MonitoredEvent, ...] = ()
     corridor_m: float | None = None
+    turn_deg_s: float | None = None
 
     __repr__ = short_repr
 

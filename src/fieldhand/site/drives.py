@@ -21,6 +21,7 @@ from shapely.geometry import Point
 from fieldhand.errors import DriveFault
 from fieldhand.language import message
 from fieldhand.language.words import listed, say_marker, say_number, say_side, say_tree
+from fieldhand.site.bearings import ahead_of, apart_deg, bearing_of, heading_along, last_heading
 from fieldhand.site.driving.lane_choice import RowVisits, choose_lanes, pick_candidate
 from fieldhand.site.driving.layout import Layout, Spot
 from fieldhand.site.driving.network import DrivableNetwork, network_of
@@ -93,6 +94,7 @@ class Drives:
         self._problems: dict[DriveKey, str] = {}
         self._ways: dict[tuple[XY, XY], tuple[tuple[XY, ...], float] | None] = {}
         self._drives: dict[tuple[Place, XY | None, Place, XY | None], Drive] = {}
+        self._axes: dict[DriveKey, float | None] = {}
 
     # --- drives -----------------------------------------------------------------------------------------------
 
@@ -298,6 +300,82 @@ class Drives:
         """Return aisles, headlands, gates and the links between them, as lines."""
         return network_of(self.site, self.layout)
 
+    # --- headings ---------------------------------------------------------------------------------------------
+
+    def axis_deg(self, place: Place) -> float | None:
+        """Return the bearing of the aisle in which the robot stands at a place, in degrees clockwise from north; either
+        of its two. None on open ground, and on a site without rows.
+        """
+        key = _key(place)
+        if key not in self._axes:
+            across = self._stands.across(place)
+            if across is not None:
+                self._axes[key] = (bearing_of((0.0, 0.0), across) + 90.0) % 360.0
+            else:
+                at = place.stand or place.xy
+                aisle = self.layout.aisle(at)
+                self._axes[key] = None if aisle is None else aisle.axis_deg(at)
+        return self._axes[key]
+
+    def row_ends(self, place: Place) -> tuple[XY, ...]:
+        """Return the first and the last tree of the row of a tree or gap; empty for a place in no row."""
+        return self._stands.row_ends(place)
+
+    def heading_after(self, drive: Drive) -> float | None:
+        """Return the heading at the end of a drive, in degrees clockwise from north: along the aisle in which it ends,
+        in the direction of driving, and on open ground that of its last leg; None if the robot does not move.
+        """
+        if last_heading(drive.points) is None:
+            return None
+        axis = self.axis_deg(drive.end)
+        return last_heading(drive.points) if axis is None else heading_along(axis, drive.points)
+
+    def arriving(self, a: Place, b: Place, side: str) -> Drive:
+        """Return the shortest drive from ``a`` on whose end a tree of a row is on the left or the right of the robot,
+        which comes in from the end of the row from which it is; :meth:`between` if there is none.
+
+        The robot turns round where the drive does: its turning circle is not considered.
+
+        Raises:
+            DriveFault: As :meth:`between`.
+        """
+        plain = self.between(a, b)
+        ends, best = self._stands.row_ends(b), None
+        for stand in () if math.dist(*plain.points[-2:]) == 0.0 else self._able(b):
+            end = replace(b, stand=stand.xy)
+            axis = self.axis_deg(end)
+            if axis is None or not ends or math.dist(stand.xy, b.xy) < self.clearance_m / 2.0:
+                continue
+            to_tree = bearing_of(stand.xy, b.xy) + (90.0 if side == "left" else -90.0)
+            heading = axis if apart_deg(axis, to_tree) < 90.0 else (axis + 180.0) % 360.0
+            way = self._arriving(a, end, heading, ends)
+            if way is not None and (best is None or way.length_m < best.length_m - 1e-9):
+                best = way
+        return best or plain
+
+    def _arriving(self, a: Place, end: Place, heading: float, ends: Sequence[XY]) -> Drive | None:
+        """Return the drive to a stand that ends in a heading: the shortest one, or one from the end of the row."""
+        direct = self.between(a, end)
+        if self._ends_in(direct, heading):
+            return direct
+        stand, one = end.stand or end.xy, min(ends, key=lambda xy: _along(xy, heading))
+        beside = (one[0] + stand[0] - end.x, one[1] + stand[1] - end.y)
+        for metres in (max(self.standoff_m, 2.0 * self.clearance_m), self.clearance_m, 0.0):
+            turn = ahead_of(beside, heading, -metres)
+            if not self.layout.are_free(np.array([turn]))[0]:
+                continue
+            there, in_ = self._way(direct.start.stand or direct.start.xy, turn), self._way(turn, stand)
+            if there is None or in_ is None:
+                continue
+            way = Drive((*there[0], *in_[0][1:]), there[1] + in_[1], direct.start, end)
+            if self._ends_in(way, heading):
+                return way
+        return None
+
+    def _ends_in(self, drive: Drive, heading: float) -> bool:
+        ending = self.heading_after(drive)
+        return ending is not None and apart_deg(ending, heading) < 90.0
+
     # --- unreachable places -----------------------------------------------------------------------------------
 
     def problem(self, place: Place) -> str:
@@ -453,6 +531,12 @@ class Drives:
 
 def _key(place: Place) -> DriveKey:
     return place.key, place.xy, place.stand
+
+
+def _along(xy: XY, heading_deg: float) -> float:
+    """Return how far a point lies in a direction, in metres."""
+    heading = math.radians(heading_deg)
+    return xy[0] * math.sin(heading) + xy[1] * math.cos(heading)
 
 
 def _out_of_reach(closed: Sequence[ClosedGround]) -> str:

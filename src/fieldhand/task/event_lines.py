@@ -24,6 +24,8 @@ _TYPES: dict[str, type[Event]] = {kind.event: kind for kind in get_args(Event)}
 def to_json(event: Event) -> str:
     """Return an event as one line of an event log."""
     fields = {f.name: getattr(event, f.name) for f in dataclasses.fields(event)}
+    if images := fields.get("images"):
+        fields["images"] = [dataclasses.asdict(image) for image in images]
     return json_text({"event": event.event, **fields})
 
 

@@ -8,6 +8,7 @@ WGS 84.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import ClassVar, Literal
@@ -58,6 +59,7 @@ class Driving:
     """A drive begins. ``path`` lists its corners as (lat, lon), ``speed_m_s`` is the commanded speed.
 
     ``side``, here and in the events below, is the side of the tree on which the robot is to stand, if the plan says so.
+    ``heading_deg`` is the heading at its end, in degrees clockwise from north.
     """
 
     event: ClassVar[str] = "drive"
@@ -69,6 +71,7 @@ class Driving:
     path: tuple[tuple[float, float], ...]
     speed_m_s: float | None = None
     side: str = ""
+    heading_deg: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,12 +91,36 @@ class Arrived:
     side: str = ""
 
 
+#: Paths of images that a mission writes; a log of others may name anything.
+IMAGE_PATH = re.compile(r"images/(?P<name>[A-Za-z0-9_-]{1,150}\.(?:png|jpg|tif))")
+
+
+@dataclass(frozen=True, kw_only=True)
+class ImageFile:
+    """An image of a capture, as it was saved.
+
+    ``name`` is that of the profile, ``file`` the path below the mission's folder, with its ``sha256`` and size in
+    ``bytes``. ``encoding`` is that of the robot's message. Without a ``file`` the image was not saved, and ``what`` is
+    the reason.
+    """
+
+    name: str
+    file: str = ""
+    sha256: str = ""
+    bytes: int = 0
+    width: int = 0
+    height: int = 0
+    encoding: str = ""
+    what: str = ""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Acted:
     """An action was done or failed. ``lat``/``lon`` are those of the tree or point where it was done.
 
     ``readings`` maps each measured quantity to its value, in the unit of the profile. ``count`` is 1: every capture is
-    an event of its own.
+    an event of its own. ``robot_lat``, ``robot_lon`` and ``heading_deg`` (clockwise from north) are those of the robot;
+    None if unknown.
     """
 
     event: ClassVar[str] = "action"
@@ -112,6 +139,23 @@ class Acted:
     what: str = ""
     charge_percent: float = 100.0
     side: str = ""
+    images: tuple[ImageFile, ...] = ()
+    robot_lat: float | None = None
+    robot_lon: float | None = None
+    heading_deg: float | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class ImageLost:
+    """An image was taken but could not be saved; recorded once for each reason."""
+
+    event: ClassVar[str] = "image_lost"
+    t: float
+    node: str
+    action: str
+    kind: str
+    place: str
+    what: str
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -224,10 +268,18 @@ class ChargeEnded:
     seconds: float
 
 
+#: Source of a distance that was driven unobserved: the robot's ``odometer``, which measured it; else it is estimated
+#: along the ``path`` of the drive, or straight on (``line``), which is the least that it can be. Empty for none.
+UnobservedBy = Literal["", "odometer", "path", "line"]
+
+
 @dataclass(frozen=True, kw_only=True)
 class Resumed:
     """The mission continues after a power failure from the robot's present position. The time without power does not
-    count.
+    count, but for that of driving on.
+
+    ``driven_m`` and ``driven_s`` are what the robot drove on meanwhile, to the end of its goal, known by ``driven_by``.
+    They count as driven.
     """
 
     event: ClassVar[str] = "resumed"
@@ -236,6 +288,9 @@ class Resumed:
     lat: float
     lon: float
     charge_percent: float
+    driven_m: float = 0.0
+    driven_s: float = 0.0
+    driven_by: UnobservedBy = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -496,6 +551,7 @@ Event = (
     | Driving
     | Arrived
     | Acted
+    | ImageLost
     | Working
     | Worked
     | InDoubt

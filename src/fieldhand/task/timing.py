@@ -25,7 +25,7 @@ class DayTime:
 
     Attributes:
         clock: Local time as ``HH:MM``; empty if ``sun`` is given.
-        sun: Event of the sun at the site; dawn and dusk are the civil ones (sun 6° below the horizon).
+        sun: Event of the sun at the site; dawn and dusk are civil (sun 6° below the horizon).
         offset_min: Minutes after the event of the sun; negative for before.
     """
 

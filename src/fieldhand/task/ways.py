@@ -45,7 +45,7 @@ class SlowNear:
     with one, as near to them.
 
     Attributes:
-        distance_m: Distance in metres within which it drives slowly; 0 for the places themselves.
+        distance_m: Metres within which it drives slowly; 0 for the places themselves.
         speed_m_s: Highest driving speed there; None for the robot's slow speed.
         said: Character ranges of the request that state it.
     """

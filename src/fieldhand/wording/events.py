@@ -35,6 +35,7 @@ from fieldhand.task.results import (
     EventEnded,
     Exited,
     Faulted,
+    ImageLost,
     InDoubt,
     LimitCrossed,
     MissionStatus,
@@ -101,6 +102,10 @@ class EventText:
                 )
             case Acted():
                 return self._acted(event)
+            case ImageLost():
+                return message(
+                    "{capture}: {what}", capture=noun(self._robot, event.action), what=kept_in_log(event.what)
+                )
             case Working():
                 return self._working(event)
             case Worked():
@@ -115,8 +120,7 @@ class EventText:
             case ChargeEnded():
                 return say_charge_ended(event)
             case Resumed():
-                charge = f"{event.charge_percent:.0f}"
-                return message("continues after a power cut, battery at {charge} %", charge=charge)
+                return _resumed(event)
             case Paused():
                 return message("paused ({reason})", reason=kept_in_log(event.reason))
             case Continued():
@@ -199,6 +203,8 @@ class EventText:
             joined(" ", [p for p in (say_name(q), say_number(value, 3), say_unit(event.units.get(q, ""))) if p])
             for q, value in event.readings.items()
         ]
+        if saved := sum(bool(image.file) for image in event.images):
+            readings.append(counted("{count} image", "{count} images", saved))
         if not readings:
             return capture
         return message("{capture}: {readings}", capture=capture, readings=joined(", ", readings))
@@ -216,6 +222,21 @@ def say_end(status: MissionStatus, reason: str = "") -> str:
 
 def _is_left_out(event: Event) -> bool:
     return isinstance(event, Shed) and event.optional
+
+
+def _resumed(event: Resumed) -> str:
+    continues = message("continues after a power cut, battery at {charge} %", charge=f"{event.charge_percent:.0f}")
+    if not event.driven_m:
+        return continues
+    metres = f"{event.driven_m:.0f}"
+    match event.driven_by:
+        case "odometer":
+            drove = message("it drove on for {metres} m meanwhile, by its odometer", metres=metres)
+        case "line":
+            drove = message("it drove on for at least {metres} m meanwhile, the straight line", metres=metres)
+        case _:
+            drove = message("it drove on for about {metres} m meanwhile, estimated along its way", metres=metres)
+    return joined("; ", (continues, drove))
 
 
 def _shed(event: Shed) -> str:

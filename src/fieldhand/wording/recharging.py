@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from fieldhand.forecast.recharge_rules import charge_target
 from fieldhand.language import counted, joined, kept_in_log, message
-from fieldhand.language.words import say_duration, say_number, say_place, say_times
+from fieldhand.language.words import say_duration, say_number, say_place, say_rounded, say_times
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.frames import Constraints
 from fieldhand.task.plan import Recharge
@@ -69,6 +69,20 @@ def _recharging(constraints: Constraints, robot: RobotProfile) -> str:
     times = say_times(constraints.recharge_at_most)
     return message(
         "it charges at the charger at most {times}, {when}, {far}, and goes on.", times=times, when=when, far=far
+    )
+
+
+def say_far_charging(constraints: Constraints, robot: RobotProfile, charged_to: float) -> tuple[str, ...]:
+    """Return a sentence if a forecast charges further than usual because places are far from the charger."""
+    usual = charge_target(constraints, robot)
+    if round(charged_to) <= usual:
+        return ()
+    return (
+        message(
+            "before places far from the charger it charges up to {percent} %, further than the usual {usual} %.",
+            percent=say_rounded(charged_to),
+            usual=say_number(usual),
+        ),
     )
 
 

@@ -6,6 +6,7 @@ from fieldhand.forecast.closed_ground import say_avoidance
 from fieldhand.forecast.slow_ground import say_slow_ground, slow_speed
 from fieldhand.language import message
 from fieldhand.language.words import listed, say_gate, say_number
+from fieldhand.robot.bindings import EXACT_TYPES
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task.frames import Constraints
 from fieldhand.task.ways import Avoid
@@ -36,6 +37,8 @@ def way_notes(constraints: Constraints, robot: RobotProfile) -> tuple[str, ...]:
     """Return what has to be known about a robot that plans its own way between the corners of a path."""
     if robot.ros2 is None or not (constraints.avoid or constraints.only_gates):
         return ()
+    if robot.ros2.navigation.type in EXACT_TYPES:
+        return ()  # it follows the path itself
     return (
         message(
             "Over ROS 2 the robot is sent from corner to corner of the path shown. Between them Nav2 plans the way, so"

@@ -310,7 +310,6 @@ REFUSED = [
         "measure the soil moisture in bed 3",
         "husky cannot read the soil moisture: no action 'read_soil_moisture'",
     ),
-    (PASTURE, AMIGA, "soil moisture at the four corners of the bank", "this site records no plants: every tree"),
     (GARDEN, AMIGA, "photograph the carrots", "not understood: 'carrots'"),
     (GARDEN, AMIGA, "photograph the tomato bed", "not understood: 'tomato'"),
     (GLASSHOUSE, AMIGA, "photograph bed 9", "there is no row '9' in block mild bay, block hot bay"),

@@ -463,7 +463,6 @@ REFUSED = [
         "photograph whichever came out lowest",
         "'photograph whichever came out lowest': nothing before it measures that",
     ),
-    (GLASSHOUSE, HUSKY, "thermal pictures of five melons on our list", "'on our list'"),
     (GLASSHOUSE, HUSKY, "a thermal picture of the tall melons", "'of the tall melons'"),
     (
         GARDEN,

@@ -661,6 +661,7 @@ PLANNED = [
 ]
 
 ASKED = [
+    (GARDEN, TRACTOR, "spray half of bed 4 at 200 l/ha", 2),
     (PASTURE, TRACTOR, "mow half of the cow paddock", 4),
     (PASTURE, TRACTOR, "mow half the long pasture", 4),
     (PASTURE, TRACTOR, "mow one quarter of the bank", 4),
@@ -673,12 +674,6 @@ ASKED = [
 ]
 
 REFUSED = [
-    (
-        GARDEN,
-        TRACTOR,
-        "spray half of bed 4 at 200 l/ha",
-        "work along a row is done along the whole row",
-    ),
     (
         GARDEN,
         AMIGA,

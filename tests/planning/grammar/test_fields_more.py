@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from fieldhand.robot.loader import load_robot
-from planning.grammar.field_requests import require_plan, require_question, require_refusal
+from planning.grammar.field_requests import require_plan, require_question
 from support.sites.gardens import glasshouse, pasture, vegetable_garden
 
 GARDEN, GLASSHOUSE, PASTURE = vegetable_garden(), glasshouse(), pasture()
@@ -105,5 +105,5 @@ def test_what_is_read_there_is_asked(site: object, robot: object, request_: str,
     require_question(site, robot, request_, ways)
 
 
-def test_a_part_of_a_row_is_refused_precisely() -> None:
-    require_refusal(GLASSHOUSE, TRACTOR, "Spray row 4 from H4-2 to H4-6.", "along the whole row")
+def test_a_part_of_a_row_is_worked() -> None:
+    require_plan(GLASSHOUSE, TRACTOR, "Spray row 4 from H4-2 to H4-6.", "spray rows InRow(2, 6, of Rows(4, 4))")

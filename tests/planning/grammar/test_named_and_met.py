@@ -97,7 +97,6 @@ ASKED = [
 
 REFUSED = [
     (GLASSHOUSE, AMIGA, "photograph melon H1-3", "not all of these plants are of that kind"),
-    (GLASSHOUSE, AMIGA, "photograph the trunk of H1-3 using the ground view", "does not fit"),
     (GLASSHOUSE, AMIGA, "meet me at the seedling table, then photograph H1-3", "something follows the end"),
     (DEMO, HUSKY, "photograph tree 4 and meet me", "to follow or lead somebody"),
     (DEMO, HUSKY, "photograph tree 4 and come to me", "to follow or lead somebody"),

@@ -304,18 +304,6 @@ REFUSED = [
         "in which direction it drives around an area cannot be said yet",
     ),
     (
-        PASTURE,
-        HUSKY,
-        "Circle the pond, 4 metres from the edge, with a thermal picture every 10 metres.",
-        "how far from an edge it drives along it cannot be said yet",
-    ),
-    (
-        PASTURE,
-        TRACTOR,
-        "Mow a strip three metres wide all round the cow paddock.",
-        "a strip along an edge is as wide as the implement, 1.2 m",
-    ),
-    (
         ORCHARD,
         HUSKY,
         "Measure CO2 at every tree of row 3. If it has gone up by 20 ppm, photograph tree 4.",

@@ -78,7 +78,7 @@ def test_a_wish_is_called_what_it_is_and_something_possible_is_suggested(request
     [
         "Do the usual round.",
         "Frobnicate tree 4.",
-        "Take a picture of tree 4 with the blorb.",
+        "Take a picture of tree 4 with 3 blorbs.",
         "Water tree 5 and measure CO2 there.",
         "trees",
         "Take a picture of tree 512.",

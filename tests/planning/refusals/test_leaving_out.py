@@ -1,4 +1,4 @@
-"""A clause that only tells something is asked about, if everything else of the request can be planned."""
+"""Words that only tell or describe something are asked about, if everything else of the request can be planned."""
 
 from __future__ import annotations
 
@@ -21,6 +21,11 @@ TOLD = {
     f"{COMMAND}. How far apart are the two frobnicators?": "How far apart are the two frobnicators",
     f"{COMMAND}; the frobnicators stay on the other half.": "the frobnicators stay on the other half",
     f"{COMMAND} once it has frobnicated.": "once it has frobnicated",
+    f"{COMMAND} with the frobnicator.": "with the frobnicator",
+    f"{COMMAND}, frobnicating nicely.": "frobnicating nicely",
+    f"{COMMAND} for the new frobnicator.": "for the new frobnicator",
+    f"{COMMAND} that frobnicates.": "that frobnicates",
+    f"{COMMAND} secretly.": "secretly",
 }
 RESTRICTS = [
     f"{COMMAND} unless the frobnicators are there.",
@@ -32,6 +37,12 @@ RESTRICTS = [
     f"{COMMAND} before the flurb.",
     f"{COMMAND} once it is above 30 flurbs.",
     "Take a picture of the frobnicated tree.",
+    "Take a picture of every tree in the frobnicated corner.",
+    "Take a picture of the trees with 30 flurbs.",
+    f"{COMMAND} without the frobnicator.",
+    f"{COMMAND} with the frobnicator of tree 7.",
+    f"{COMMAND} with the frobnicator for 20 minutes.",
+    f"{COMMAND} using only the frobnicator.",
 ]
 
 
@@ -70,6 +81,16 @@ def test_the_answer_plans_the_rest_and_is_recorded_with_the_words_left_out(reque
 @pytest.mark.parametrize("request_", RESTRICTS)
 def test_what_may_restrict_or_command_is_never_left_out(request_: str) -> None:
     assert isinstance(plan(request_), Refused)
+
+
+def test_a_question_about_the_rest_is_shown_with_the_choice_and_asked_next() -> None:
+    request = "Take pictures of random trees with the frobnicator."
+    asked = plan(request)
+    assert isinstance(asked, Clarify)
+    (choice,) = asked.choices
+    then = plan(request, (Answer(question=asked.question, answer=choice),))
+    assert isinstance(then, Clarify)
+    assert then.question in choice
 
 
 def test_other_words_than_the_choice_leave_the_question_open() -> None:

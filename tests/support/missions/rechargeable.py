@@ -27,12 +27,12 @@ CHARGING: dict[str, Any] = {
 
 
 @cache
-def rechargeable(capacity_j: float = 150_000, alpha: float = 0.5, retries: int = 1) -> RobotProfile:
-    """Return a husky with a charger and a battery for about ten minutes."""
+def rechargeable(capacity_j: float = 150_000, alpha: float = 0.5, retries: int = 1, **charging: float) -> RobotProfile:
+    """Return a husky with a charger, of which some values may differ, and a battery for about ten minutes."""
     return RobotProfile.load(
         "husky",
         changes={
-            "energy": {"capacity_j": capacity_j, "charging": CHARGING},
+            "energy": {"capacity_j": capacity_j, "charging": {**CHARGING, **charging}},
             "leg_cost": {"alpha": alpha},
             "retries": retries,
         },

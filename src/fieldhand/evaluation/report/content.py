@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 from fieldhand.evaluation.outcome import judge, judge_end
+from fieldhand.evaluation.report.images import ReportImages, report_images
 from fieldhand.evaluation.report.incidents import FoldedLines, LeftOut, conditions, faults, left_out
 from fieldhand.evaluation.report.log_facts import branch_taken, captures, start_of, used
 from fieldhand.evaluation.report.place_names import PlaceNames
@@ -43,6 +45,7 @@ HEADINGS = {
     "took": "What it took, and the forecast",
     "bars": "Dark: used. Dark grey: what half of the missions stay within; light grey: nine in ten."
     " Orange: the average. Red: the budget.",
+    "images": "Images",
     "table": "Every reading",
     "warnings": "Warnings that were confirmed",
     "record": "Record",
@@ -104,6 +107,7 @@ class ReportContent:
     more_rows: str
     warnings: tuple[str, ...]
     record: tuple[tuple[str, str], ...]
+    images: ReportImages
 
 
 def compose(
@@ -117,6 +121,7 @@ def compose(
     estimate: Estimate | None,
     signed: str = "",
     hashes: Sequence[tuple[str, str]] = (),
+    images: Path | None = None,
 ) -> ReportContent:
     """Compose the content of a mission's report.
 
@@ -128,6 +133,7 @@ def compose(
         estimate: The forecast, or None to leave the comparison out.
         signed: The signer, in words; empty if the mission is not signed.
         hashes: Name and SHA-256 of each further input.
+        images: Folder of the mission, which has its images; None if it is unknown.
     """
     names = PlaceNames(site)
     read = summaries(task, robot, events, reading_statistics(site, events))
@@ -152,6 +158,7 @@ def compose(
         more_rows=f"More than {MOST_ROWS:,} readings: all are in observations.csv." if len(rows) > MOST_ROWS else "",
         warnings=() if authorization is None else authorization.confirmed,
         record=tuple(_record(task, site, robot, events, authorization, signed, hashes)),
+        images=report_images(events, images, names),
     )
 
 

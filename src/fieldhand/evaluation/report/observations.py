@@ -25,6 +25,7 @@ class ObservationRow:
         charge_percent: Charge afterwards, in percent of a full battery.
         what: What the robot reported, in words.
         side: Side of the tree from which it was taken, if the plan says so.
+        images: Paths of the images of the capture, with a space between; each as ``images/NAME``.
     """
 
     t_s: float
@@ -42,6 +43,7 @@ class ObservationRow:
     charge_percent: float
     what: str
     side: str
+    images: str
 
 
 COLUMNS = tuple(field.name for field in fields(ObservationRow))
@@ -66,10 +68,16 @@ def observation_rows(events: Sequence[Event]) -> tuple[ObservationRow, ...]:
             charge_percent=round(event.charge_percent, 3),
             what=event.what,
             side=event.side,
+            images=" ".join(_files(event)),
         )
         for event in _tried(events)
         for quantity, value in _readings_of(event)
     )
+
+
+def _files(event: Acted | InDoubt) -> list[str]:
+    """Return the paths of the images of a capture that were saved."""
+    return [image.file for image in event.images if image.file] if isinstance(event, Acted) else []
 
 
 def _readings_of(event: Acted | InDoubt) -> list[tuple[str, float | None]]:
@@ -110,6 +118,8 @@ def _feature(event: Acted | InDoubt) -> dict[str, Any]:
         properties[quantity] = value if math.isfinite(value) else None
         if quantity in event.units:
             properties[f"{quantity}_unit"] = event.units[quantity]
+    if files := _files(event):
+        properties["images"] = files
     if event.side:
         properties["side"] = event.side
     if event.what:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from fieldhand.errors import OutputError
 from fieldhand.evaluation.report.content import compose
+from fieldhand.evaluation.report.images import copy_images
 from fieldhand.evaluation.report.log_facts import places_ahead
 from fieldhand.evaluation.report.observations import observations_csv, observations_geojson
 from fieldhand.files import write_whole
@@ -52,6 +53,7 @@ def write_report(
     estimate: Estimate | None,
     signed: str = "",
     hashes: Sequence[tuple[str, str]] = (),
+    images: Path | None = None,
 ) -> ReportFiles:
     """Write the report of a mission into a folder, creating it if needed and replacing files of the same names.
 
@@ -63,6 +65,7 @@ def write_report(
         estimate: The forecast, or None to leave the comparison out.
         signed: The signer, in words; empty if the mission is not signed.
         hashes: Name and SHA-256 of each input beside those approved.
+        images: Folder of the mission, which has its images; they are copied beside the report. None if it is unknown.
 
     Raises:
         OutputError: The folder or a file in it cannot be written.
@@ -82,7 +85,12 @@ def write_report(
         estimate=estimate,
         signed=signed,
         hashes=hashes,
+        images=images,
     )
+    try:
+        copy_images(events, images, folder)
+    except OSError as fault:
+        raise _cannot_write(folder, fault) from None
     from fieldhand.evaluation.report.maps import report_maps
     from fieldhand.evaluation.report.page import render_page
 

@@ -53,6 +53,17 @@ LOG = {
     },
     "required": ["timestamp", "level", "message", "name", "file", "line"],
 }
+IMAGE = {
+    "title": "foxglove.CompressedImage",
+    "type": "object",
+    "properties": {
+        "timestamp": _TIME,
+        "frame_id": _TEXT,
+        "data": {"type": "string", "contentEncoding": "base64"},
+        "format": _TEXT,
+    },
+    "required": ["timestamp", "frame_id", "data", "format"],
+}
 STATE = {
     "title": "fieldhand.State",
     "type": "object",
@@ -86,6 +97,9 @@ def _of_hint(hint: Any) -> dict[str, Any]:
         return {"enum": list(inner)}
     if origin in (Union, UnionType):
         return {"anyOf": [{"type": "null"} if one is NoneType else _of_hint(one) for one in inner]}
+    if dataclasses.is_dataclass(hint):
+        hints = get_type_hints(hint)
+        return {"type": "object", "properties": {f.name: _of_hint(hints[f.name]) for f in dataclasses.fields(hint)}}
     if origin is tuple:
         length = {} if inner[-1] is ... else {"minItems": len(inner), "maxItems": len(inner)}
         return {"type": "array", "items": _of_hint(inner[0])} | length

@@ -9,11 +9,13 @@
 | /blocked | foxglove.GeoJSON | what the robot keeps off because something stood there |
 | /site | foxglove.GeoJSON | trees, markers and zones, if the site is given |
 | /log | foxglove.Log | what happened, in words |
+| /images/NAME | foxglove.CompressedImage | the images of captures, JPEG and PNG; others are attachments |
 | /state | fieldhand.State | charge, metres and the last reading of each quantity, for plots |
 """
 
 from __future__ import annotations
 
+import base64
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -27,7 +29,8 @@ from fieldhand.compatibility import datetime_from_iso
 from fieldhand.errors import OutputError
 from fieldhand.exchange.broken_off import driven_part
 from fieldhand.exchange.incidents import known, position_of
-from fieldhand.exchange.mcap.schemas import EVENTS, GEOJSON, LOCATION, LOG, STATE, schema_of
+from fieldhand.exchange.mcap.images import image_data
+from fieldhand.exchange.mcap.schemas import EVENTS, GEOJSON, IMAGE, LOCATION, LOG, STATE, schema_of
 from fieldhand.files import open_output
 from fieldhand.hidden_characters import visible_json
 from fieldhand.task.event_lines import to_json
@@ -40,6 +43,7 @@ from fieldhand.task.results import (
     Event,
     Exited,
     Faulted,
+    ImageLost,
     InDoubt,
     LimitCrossed,
     Obstructed,
@@ -60,7 +64,7 @@ if TYPE_CHECKING:
 #: Levels of foxglove.Log.
 _INFO, _WARNING, _ERROR = 2, 3, 4
 #: Events that are logged as warnings.
-_DOUBTFUL = InDoubt | Resumed | Obstructed | Strayed | Waited | LimitCrossed | ClockSet
+_DOUBTFUL = InDoubt | ImageLost | Resumed | Obstructed | Strayed | Waited | LimitCrossed | ClockSet
 #: Interval between positions along a drive, in seconds.
 _EVERY_S = 1.0
 #: Maximum number of positions along one drive.
@@ -89,6 +93,7 @@ class McapLog:
             first event.
         tell: Returns the description of an event, or None if it needs no log line.
         site: Site to draw on the map, or None.
+        images: Folder of the mission with its images, also set later as :attr:`images`; None to write none.
 
     Raises:
         OutputError: The file cannot be written, now or later (such as on a full disk).
@@ -101,8 +106,11 @@ class McapLog:
         began_s: float | None = None,
         tell: Callable[[Event], str | None] = lambda _: None,
         site: Site | None = None,
+        images: Path | None = None,
     ) -> None:
         from mcap.writer import Writer
+
+        self.images = images
 
         self._path, self._began, self._tell, self._site = path, began_s, tell, site
         self._channels: dict[str, int] = {}
@@ -172,6 +180,8 @@ class McapLog:
             case Obstructed():
                 yield self._geojson("/blocked", event.t, _blocked_features(event))
             case Acted() | InDoubt():
+                if isinstance(event, Acted):
+                    yield from self._image_messages(event)
                 self._captures.append(event)
                 yield from self._shown(event.t)
             case Ended():
@@ -181,6 +191,24 @@ class McapLog:
             yield self._location(event.t, *at)
         if self._note(event):
             yield _Message(topic="/state", schema=STATE, t=event.t, data=_json(self._state))
+
+    def _image_messages(self, event: Acted) -> Iterator[_Message]:
+        """Yield the images of a capture that panels show; add others, such as measured values, as attachments."""
+        for image in event.images if self.images is not None else ():
+            data = image_data(self.images, image)
+            if data is None:
+                continue
+            if image.file.endswith(".tif"):
+                at = self._nanoseconds(event.t)
+                self._writer.add_attachment(at, at, image.file, "image/tiff", data)
+                continue
+            shown = {
+                "timestamp": self._time(event.t),
+                "frame_id": image.name,
+                "format": "png" if image.file.endswith(".png") else "jpeg",
+                "data": base64.b64encode(data).decode("ascii"),
+            }
+            yield _Message(topic=f"/images/{image.name}", schema=IMAGE, t=event.t, data=_json(shown))
 
     def _shown(self, t: float, *, last: bool = False) -> Iterator[_Message]:
         """Yield all captures so far: after each of the first ones, then per 10 % increase, and at the end."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -25,13 +26,13 @@ _NO_LEG_M = 1e-3
 
 
 def write_path(route: ExportedRoute, frame: MapFrame) -> bytes:
-    """Return the ways of a route, one after the other, as poses that face along them.
+    """Return the ways of a route as poses that face along them, and at a stop as the robot stands there.
 
     Raises:
         InputError: The route is too long, or the robot does not move.
     """
-    corners = _corners(route, frame)
-    poses = _poses(corners)
+    corners, yaws = _corners(route, frame)
+    poses = _poses(corners, yaws)
     if len(poses) < 2:
         raise InputError(
             message("the mission has no path: the robot does not move"),
@@ -52,18 +53,24 @@ def _quoted(name: str) -> str:
     return "'" + name.replace("'", "''") + "'"
 
 
-def _corners(route: ExportedRoute, frame: MapFrame) -> Points:
-    """Return the corners of all ways in metres of the map, without repeated ones."""
+def _corners(route: ExportedRoute, frame: MapFrame) -> tuple[Points, dict[int, float]]:
+    """Return the corners of all ways in metres of the map, without repeated ones, and the yaw at the stops."""
     degrees = [point for stop in route.stops for point in stop.way]
     if not degrees:
-        return np.empty((0, 2))
+        return np.empty((0, 2)), {}
     at = np.array(degrees_to_map(frame.datum, degrees))
-    apart = np.hypot(*np.diff(at, axis=0).T) > _NO_LEG_M
-    return np.asarray(at[np.concatenate([[True], apart])])
+    kept = np.concatenate([[True], np.hypot(*np.diff(at, axis=0).T) > _NO_LEG_M])
+    numbers = np.cumsum(kept) - 1
+    ends = np.cumsum([len(stop.way) for stop in route.stops]) - 1
+    return np.asarray(at[kept]), {
+        int(numbers[end]): math.radians(frame.datum.heading_deg - stop.heading_deg)
+        for stop, end in zip(route.stops, ends.tolist(), strict=True)
+        if stop.way and stop.heading_deg is not None
+    }
 
 
-def _poses(corners: Points) -> list[tuple[float, float, float]]:
-    """Return x, y and yaw along a path; at a corner the robot faces along the way to it.
+def _poses(corners: Points, yaws: Mapping[int, float]) -> list[tuple[float, float, float]]:
+    """Return x, y and yaw along a path; at a corner the robot faces along the way to it, unless a yaw is given.
 
     Raises:
         InputError: The path is too long.
@@ -76,8 +83,9 @@ def _poses(corners: Points) -> list[tuple[float, float, float]]:
             advice=message("leave it out, or give a shorter mission"),
         )
     poses: list[tuple[float, float, float]] = []
-    for (x0, y0), (x1, y1) in itertools.pairwise(corners.tolist()):
+    for number, ((x0, y0), (x1, y1)) in enumerate(itertools.pairwise(corners.tolist()), start=1):
         yaw, steps = math.atan2(y1 - y0, x1 - x0), max(1, math.ceil(math.dist((x0, y0), (x1, y1)) / _STEP_M))
         shares = [k / steps for k in range(1 if poses else 0, steps + 1)]
         poses.extend((x0 + (x1 - x0) * share, y0 + (y1 - y0) * share, yaw) for share in shares)
+        poses[-1] = (*poses[-1][:2], yaws.get(number, yaw))
     return poses

@@ -47,6 +47,8 @@ def _of_stop(route: ExportedRoute, stop: RouteStop, number: int) -> dict[str, An
             for w in stop.work
         ],
     }
+    if stop.heading_deg is not None:
+        found["heading_deg"] = round(stop.heading_deg, 1)
     if stop.t is not None:
         found["t_s"] = round(stop.t, 3)
     for work in stop.work:

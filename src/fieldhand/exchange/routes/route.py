@@ -17,6 +17,7 @@ from fieldhand.exchange.incidents import Incident, LatLon, incidents
 from fieldhand.exchange.incidents import known as _known
 from fieldhand.forecast.branches import branches
 from fieldhand.forecast.resource_limits import speed_of
+from fieldhand.forecast.visit_order import drives_for
 from fieldhand.forecast.walk_steps import Walk, WalkStep
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
@@ -62,6 +63,7 @@ class RouteStop:
         certain: True if the stop is visited for all readings and leg costs.
         home: True at the end of the mission.
         t: Seconds from the start in a log; None in a plan.
+        heading_deg: Heading of the robot in degrees clockwise from north; None if it is not known.
     """
 
     node: str
@@ -76,6 +78,7 @@ class RouteStop:
     certain: bool = True
     home: bool = False
     t: float | None = None
+    heading_deg: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -112,11 +115,13 @@ def planned(task: Task, site: Site, robot: RobotProfile) -> ExportedRoute:
     known = _Certain(found.walks if found.complete else (walked,), complete=found.complete)
     first = next((s.context.here for s in walked.steps), site.start)
     stops: list[RouteStop] = [_stop(first, site, node="", certain=True)]
+    ways = drives_for(site, robot, task.constraints)
     travelled, drives = 0.0, 0
     for step in walked.steps:
         if step.kind in ("drive", "exit") and step.drive is not None:
             travelled += step.drive.length_m
-            stops.append(_driven_to(step, site, travelled, drives < known.drives))
+            heading = ways.heading_after(step.drive) if step.heading_deg is None else step.heading_deg
+            stops.append(_driven_to(step, site, travelled, drives < known.drives, heading))
             drives += 1
         elif step.kind == "exit":
             stops[-1] = replace(stops[-1], home=True)
@@ -181,7 +186,12 @@ def driven(
                             travelled_m=metres, t=event.t,
                         )
                     )  # fmt: skip
-                stops[-1] = replace(stops[-1], at=(event.lat, event.lon), work=_with(stops[-1].work, event))
+                stops[-1] = replace(
+                    stops[-1],
+                    at=(event.lat, event.lon),
+                    work=_with(stops[-1].work, event),
+                    heading_deg=event.heading_deg,
+                )
             case Ended() if stops:
                 stops[-1] = replace(stops[-1], home=not stops[-1].work)
             case _:
@@ -242,12 +252,18 @@ def _with(work: tuple[ExportedWork, ...], event: Acted) -> tuple[ExportedWork, .
     return (*work[:-1], more)
 
 
-def _driven_to(step: WalkStep, site: Site, travelled: float, certain: bool) -> RouteStop:
+def _driven_to(step: WalkStep, site: Site, travelled: float, certain: bool, heading_deg: float | None) -> RouteStop:
     assert step.drive is not None  # noqa: S101  the caller looked
     way = site.projection.lat_lon(step.drive.points)
     made = _stop(step.places[0], site, node=step.node.id, certain=certain)
     return replace(
-        made, way=way, stand=way[-1], length_m=step.drive.length_m, travelled_m=travelled, home=step.kind == "exit"
+        made,
+        way=way,
+        stand=way[-1],
+        length_m=step.drive.length_m,
+        travelled_m=travelled,
+        home=step.kind == "exit",
+        heading_deg=heading_deg,
     )
 
 

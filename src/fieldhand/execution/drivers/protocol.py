@@ -20,7 +20,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal, Protocol, runtime_checkable
 
+from fieldhand.robot.camera import Camera
 from fieldhand.site.model import Place
+from fieldhand.task.results import ImageFile
 
 #: States of a goal. ``cut_off`` is never returned by a driver: the journal records it for a goal interrupted by a power
 #: cut.
@@ -53,12 +55,14 @@ class Position:
     Attributes:
         x, y: Metres east and north in the site's projection.
         lat, lon: Degrees, WGS 84.
+        heading_deg: Heading in degrees clockwise from true north, 0 to 360; None if it is not known.
     """
 
     x: float
     y: float
     lat: float
     lon: float
+    heading_deg: float | None = None
 
     @property
     def xy(self) -> tuple[float, float]:
@@ -102,6 +106,9 @@ class DriveGoal:
         length_m: Length of the path in metres.
         speed_m_s: Speed limit in m/s.
         work: Work along the path; None for a drive whose path the robot may leave.
+        heading_deg: Heading at the end in degrees clockwise from true north; None for that of the last leg.
+        faces: Camera for whose picture the robot has this heading; None if it only stands along the aisle, so that
+            another heading is no failure.
     """
 
     place: Place
@@ -110,15 +117,43 @@ class DriveGoal:
     length_m: float
     speed_m_s: float
     work: StretchWork | None = None
+    heading_deg: float | None = None
+    faces: Camera | None = None
 
 
 @dataclass(frozen=True, kw_only=True)
 class ActionGoal:
-    """A capture at the robot's current place, with a value for every parameter that the profile declares."""
+    """A capture at the robot's current place, with a value for every parameter that the profile declares.
+
+    ``node`` and ``attempt`` name the capture in what is saved of it.
+    """
 
     action: str
     place: Place
     parameters: Mapping[str, str | float] = field(default_factory=dict)
+    node: str = ""
+    attempt: int = 1
+
+
+@dataclass(frozen=True, kw_only=True)
+class CapturedImage:
+    """An image that a capture has taken, as the bytes of a file.
+
+    Attributes:
+        name: Name of the image in the profile.
+        format: Format of the file.
+        width, height: Size in pixels.
+        encoding: Encoding of the robot's message: that of the pixels, or of the compressed image.
+        note: How values of the pixels are to be read; empty where that is plain.
+    """
+
+    name: str
+    format: Literal["png", "jpeg", "tiff"]
+    data: bytes = field(repr=False)
+    width: int
+    height: int
+    encoding: str
+    note: str = ""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -131,6 +166,8 @@ class Progress:
         readings: Readings of a capture by quantity, in the units of the profile; failed sensors are omitted.
         what: Cause of a failure, in words.
         fault: Kind of failure.
+        images: Images of a capture.
+        files: Those images as they were saved; a driver leaves it empty.
     """
 
     state: GoalState
@@ -139,6 +176,8 @@ class Progress:
     readings: Mapping[str, float] = field(default_factory=dict)
     what: str = ""
     fault: GoalFault = "none"
+    images: tuple[CapturedImage, ...] = ()
+    files: tuple[ImageFile, ...] = ()
 
     @property
     def over(self) -> bool:
@@ -204,6 +243,15 @@ class EventSource(Protocol):
 
     def events(self) -> Mapping[str, float | None]:
         """Return the current value of each event: 1 or 0, or the value of a measured one; None if it is unknown."""
+        ...
+
+
+@runtime_checkable
+class Odometer(Protocol):
+    """A driver whose robot counts all metres that it drives, also while no program is connected to it."""
+
+    def odometer_m(self) -> float | None:
+        """Return the metres counted since the robot was switched on; None if it has no such counter."""
         ...
 
 

@@ -12,8 +12,10 @@ from fieldhand import errors
 from fieldhand.errors import FieldhandError, JournalError
 from fieldhand.execution.drivers.protocol import ActionGoal, DriveGoal, Position, Progress
 from fieldhand.execution.operator_commands import OperatorCommand
+from fieldhand.execution.unobserved_drive import UnobservedDrive, unobserved_of
 from fieldhand.forecast.failsafe_state import FailsafeForecast
 from fieldhand.forecast.mission_state import Verdict, VisitChoice
+from fieldhand.task.results import ImageFile
 
 #: ``sight``: an observation. ``begun``: a goal is about to start. ``cancel``: its cancellation was requested.
 #: ``admit``, ``choose``: an answer of the guard. ``cut``: a power cut. ``interrupt``: a second Ctrl-C.
@@ -75,6 +77,9 @@ class Observation:
         next_in: Seconds until the driver is due; None if no goal is running.
         events: Value of each event that the mission watches; None for one that is unknown.
         away, taken: As :class:`~fieldhand.execution.drivers.protocol.SharedNavigation`.
+        odometer_m: Reading of the robot's odometer; None if it has none.
+        unobserved: What the robot drove on during a power cut, which ``progress`` includes; None for nothing.
+        absent_s: Seconds for which nobody looked at the robot before, because of a power cut.
     """
 
     t: float
@@ -89,13 +94,16 @@ class Observation:
     events: Mapping[str, float | None] = field(default_factory=dict)
     away: str | None = None
     taken: str | None = None
+    odometer_m: float | None = None
+    unobserved: UnobservedDrive | None = None
+    absent_s: float = 0.0
 
     def record(self) -> Record:
         """Return the record of the observation."""
         p, g, o = self.position, self.progress, self.order
         body: dict[str, Any] = {
             "t": self.t,
-            "at": [p.x, p.y, p.lat, p.lon],
+            "at": [p.x, p.y, p.lat, p.lon, *(() if p.heading_deg is None else (p.heading_deg,))],
             "charge": self.charge_percent,
             "goal": [g.state, g.metres, g.seconds, dict(g.readings), g.what, g.fault],
             "stopped": self.stopped,
@@ -107,6 +115,14 @@ class Observation:
         if self.events:
             body["events"] = dict(self.events)
         body |= {name: why for name, why in (("away", self.away), ("taken", self.taken)) if why is not None}
+        if g.files:
+            body["images"] = [dataclasses.asdict(file) for file in g.files]
+        if self.odometer_m is not None:
+            body["odometer"] = self.odometer_m
+        if self.absent_s:
+            body["absent"] = self.absent_s
+        if self.unobserved is not None:
+            body["unobserved"] = [self.unobserved.metres, self.unobserved.seconds, self.unobserved.by]
         return Record(kind="sight", body=json.dumps(body))
 
 
@@ -118,14 +134,22 @@ def observation_of(record: Record) -> Observation:
     """
     try:
         body = json.loads(record.body)
-        x, y, lat, lon = body["at"]
+        x, y, lat, lon, *heading = body["at"]
         state, metres, seconds, readings, what, fault = body["goal"]
-        order = body["order"]
+        order, unobserved = body["order"], body.get("unobserved")
         return Observation(
             t=float(body["t"]),
-            position=Position(x=x, y=y, lat=lat, lon=lon),
+            position=Position(x=x, y=y, lat=lat, lon=lon, heading_deg=heading[0] if heading else None),
             charge_percent=float(body["charge"]),
-            progress=Progress(state=state, metres=metres, seconds=seconds, readings=readings, what=what, fault=fault),
+            progress=Progress(
+                state=state,
+                metres=metres,
+                seconds=seconds,
+                readings=readings,
+                what=what,
+                fault=fault,
+                files=tuple(ImageFile(**file) for file in body.get("images", ())),
+            ),
             stopped=body["stopped"],
             lost=body["lost"],
             wall=body["wall"],
@@ -134,6 +158,9 @@ def observation_of(record: Record) -> Observation:
             events=body.get("events", {}),
             away=body.get("away"),
             taken=body.get("taken"),
+            odometer_m=body.get("odometer"),
+            absent_s=body.get("absent", 0.0),
+            unobserved=None if unobserved is None else unobserved_of(*unobserved),
         )
     except (ValueError, KeyError, TypeError) as error:
         raise invalid_record(error) from None

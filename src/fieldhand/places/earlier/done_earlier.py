@@ -28,8 +28,7 @@ class DoneEarlier(FromRecords):
     """Places of ``of`` where earlier missions did ``action`` in ``period``; without an action anything.
 
     With ``measured``, where they measured that quantity. ``outcome`` ``failed``: where it failed and was not done in
-    the period; ``left_out``: places that were planned and not reached. ``at_least`` counts missions. Its places as
-    those of ``excluding`` are the opposite: what was not done.
+    the period; ``left_out``: places that were planned and not reached. ``at_least`` counts missions.
     """
 
     action: str = ""

@@ -42,7 +42,7 @@ class Period:
     """A period before the plan was made, in local time; weeks begin on Monday. At most one of the parts is given.
 
     Attributes:
-        calendar: A period of the calendar; ``mon`` is the latest Monday before today.
+        calendar: ``mon`` is the latest Monday before today.
         last_missions: The last so many missions that did what is asked for; 1 is the last time.
         last_hours, last_days, last_months: So long before now; 14 days for two weeks.
         first_day, last_day: Days from the first to the last, both inclusive: an ISO 8601 date (``2026-11-01``), its

@@ -34,8 +34,7 @@ class TopEarlier(FromRecords):
     """The ``count`` places of ``of`` with the highest (or ``lowest``) readings of earlier missions in ``period``, most
     extreme first.
 
-    Several readings at one place count by ``statistic``. Places without a reading are left out; fewer places if fewer
-    were read.
+    Several readings at one place count by ``statistic``. Fewer places if fewer were read.
     """
 
     quantity: str

@@ -33,7 +33,7 @@ class WhereEarlier(FromRecords):
     """Places of ``of`` whose reading of earlier missions in ``period`` passes a test with ``value``, in the profile's
     unit.
 
-    Several readings at one place count by ``statistic``. Places without a reading are left out.
+    Several readings at one place count by ``statistic``.
     """
 
     quantity: str

@@ -27,8 +27,7 @@ if TYPE_CHECKING:
 class Beside(FromGroup):
     """Trees of ``of``, each worked on from its aisle on ``side``; ``both``: each twice, from either side of its row.
 
-    A tree in a row that runs north to south has an east and a west side, one in a row that runs east to west a north
-    and a south side. Apply it last, around every other selector of the trees.
+    A tree in a row that runs north to south has an east and a west side, else a north and a south side.
     """
 
     side: TreeSide

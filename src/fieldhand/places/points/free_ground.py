@@ -32,6 +32,9 @@ OFF_TREES_M = 1.0
 #: Maximum number of points on one line or in one zone.
 MOST_POINTS = 10_000
 
+#: Distance in metres from points within which free ground is sought.
+_AROUND_M = 100.0
+
 Floats = NDArray[np.float64]
 
 #: Sides of the quarters.
@@ -48,6 +51,16 @@ def free_points(site: Site, xy: Floats, ids: Sequence[str]) -> PlaceGroup:
             for name, (x, y), (lat, lon) in zip(ids, xy.tolist(), degrees, strict=True)
         ],
     )
+
+
+def nearest_free(site: Site, xy: Floats) -> Floats:
+    """Return the point of free ground nearest to each point, shape (n, 2)."""
+    (west, south), (east, north) = xy.min(axis=0) - _AROUND_M, xy.max(axis=0) + _AROUND_M
+    free = free_part(site, shapely.box(west, south, east, north))
+    if free.is_empty:
+        return np.full_like(xy, np.inf)
+    nearest: Floats = shapely.get_coordinates(shapely.shortest_line(shapely.points(xy), free)).reshape(-1, 2, 2)[:, 1]
+    return nearest
 
 
 def area_called(site: Site, name: str) -> BaseGeometry:

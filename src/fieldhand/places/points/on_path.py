@@ -14,7 +14,7 @@ from shapely.ops import unary_union
 
 from fieldhand import language
 from fieldhand.errors import PlaceError
-from fieldhand.language import message
+from fieldhand.language import Number, message
 from fieldhand.language.words import say_rounded
 from fieldhand.places.place_errors import too_few
 from fieldhand.places.place_group import PlaceGroup
@@ -23,6 +23,7 @@ from fieldhand.places.points.free_ground import (
     area_called,
     free_part,
     free_points,
+    nearest_free,
     part_of_area,
     segments,
 )
@@ -36,11 +37,8 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-#: Distance in metres of points along an edge from it.
-_OFF_EDGE_M = 1.5
-
-#: Distance in metres within which a point of an edge is moved to free ground.
-_NEAR_M = 100.0
+#: Maximum distance in metres of points along an edge from it.
+_MOST_OFF_M = 100.0
 
 #: Maximum number of legs of a zigzag.
 MOST_LEGS = 200
@@ -85,7 +83,7 @@ def points_on_path(site: Site, selector: Transect, notes: ResolutionNotes) -> Pl
         PlaceError: There is no such zone, no space in it, or the number of points or legs is not possible.
     """
     if selector.shape == "edge":
-        path = _edge(site, selector.zone)
+        path = _edge(site, selector)
     else:
         area = part_of_area(area_called(site, selector.zone), selector.part)
         free = free_part(site, area)
@@ -117,26 +115,29 @@ def _beside_edge(site: Site, xy: Floats, selector: Transect) -> Floats:
 
     At a spacing, those that would move by more than half of it are left out: an edge outside of the boundary has none.
     """
-    (west, south), (east, north) = xy.min(axis=0) - _NEAR_M, xy.max(axis=0) + _NEAR_M
-    free = free_part(site, shapely.box(west, south, east, north))
-    points = shapely.points(xy)
-    ends = shapely.get_coordinates(shapely.shortest_line(points, free)).reshape(-1, 2, 2)
-    moved = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+    free = nearest_free(site, xy)
+    moved = np.hypot(*(free - xy).T)
     near = moved <= selector.apart_m / 2.0 if selector.apart_m else np.ones(len(xy), dtype=bool)
-    stands: Floats = ends[near, 1]
+    stands: Floats = free[near]
     return stands
 
 
-def _edge(site: Site, zone: str) -> list[LineString]:
+def _edge(site: Site, selector: Transect) -> list[LineString]:
     """Return the pieces of the edge of a zone or the site, inside of it, clockwise from its north-west.
 
     Around a keep-out they lie outside of it.
 
     Raises:
-        PlaceError: There is no such zone.
+        PlaceError: There is no such zone, or the distance from the edge is none.
     """
+    zone, off = selector.zone, selector.off_m
+    if not (np.isfinite(off) and 0 <= off <= _MOST_OFF_M):
+        raise PlaceError(
+            message("points cannot lie {metres} m from an edge", metres=Number(f"{off:g}")),
+            advice=message("ask for 0 to {most} m", most=Number(f"{_MOST_OFF_M:g}")),
+        )
     outs = [z.polygon for z in site.zones_of("keep_out") if zone and phrase(z.name) == phrase(zone)]
-    area = unary_union(outs).buffer(_OFF_EDGE_M) if outs else area_called(site, zone).buffer(-_OFF_EDGE_M)
+    area = unary_union(outs).buffer(off) if outs else area_called(site, zone).buffer(-off)
     found: list[LineString] = []
     for part in shapely.get_parts(area):
         at = list(orient(part, sign=-1.0).exterior.coords)[:-1] if isinstance(part, Polygon) else []

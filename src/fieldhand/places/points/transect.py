@@ -27,12 +27,16 @@ if TYPE_CHECKING:
 PathShape = Literal["zigzag", "z", "x", "edge"]
 
 
+#: Distance in metres of points along an edge from it, unless another is asked for.
+OFF_EDGE_M = 1.5
+
+
 @dataclass(frozen=True, kw_only=True)
 class Transect(FromGroup):
     """``count`` trees of ``of`` nearest to equally spaced points, or to points ``apart_m`` metres apart, of a path
     across it: a ``zigzag`` of ``legs`` (4 are a W, 1 is a diagonal), a ``z`` or an ``x``. With ``zone`` (``part``),
-    free points there; without trees, on the whole site. Along an ``edge``, always free points: inside the edge,
-    outside that of a keep-out."""
+    free points there; without trees, on the whole site. Along an ``edge``, free points ``off_m`` inside of
+    it, outside of a keep-out."""
 
     count: int = 0
     apart_m: float = 0.0
@@ -40,6 +44,7 @@ class Transect(FromGroup):
     legs: int = 4
     zone: str = ""
     part: AreaPart = "all"
+    off_m: float = OFF_EDGE_M
     of: Selector = Trees()
 
     reference_rule = "of"
@@ -74,7 +79,10 @@ class Transect(FromGroup):
         over = say_area(self.zone, self.part) if self.on_ground else group.group()
         if self.apart_m:
             text = message(
-                "every {metres} m along {path} across {area}", metres=say_number(self.apart_m), path=path, area=over
+                "the points every {metres} m along {path} across {area}",
+                metres=say_number(self.apart_m),
+                path=path,
+                area=over,
             )
             return many(text)
         if self.on_ground:
@@ -86,9 +94,13 @@ class Transect(FromGroup):
 
     def _along_edge(self) -> NounPhrase:
         area = say_zone(self.zone) if self.zone else message("the whole site")
+        if self.off_m != OFF_EDGE_M:
+            area = message("{area}, {metres} m from it", area=area, metres=say_number(self.off_m))
         if self.apart_m:
             return many(
-                message("every {metres} m along the edge of {area}", metres=say_number(self.apart_m), area=area)
+                message(
+                    "the points every {metres} m along the edge of {area}", metres=say_number(self.apart_m), area=area
+                )
             )
         points = counted("{count} point", "{count} points", self.count)
         text = message("{points} along the edge of {area}", points=points, area=area)

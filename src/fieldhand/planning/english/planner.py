@@ -12,7 +12,7 @@ from fieldhand.planning.english.missing_blocks import missing_blocks
 from fieldhand.planning.english.tokens import Word, words_of
 from fieldhand.planning.english.wishes import Wish, early_wishes
 from fieldhand.planning.grammar.planned import NAME
-from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Reason, Refused
+from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Refused
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.codec_text import hidden_character
@@ -91,7 +91,7 @@ class EnglishPlanner:
     ) -> Outcome | None:
         """Plan a request that says when the mission runs; None if it says no such time."""
         from fieldhand.planning.grammar.reader import composed
-        from fieldhand.planning.grammar.times import asked_time, assumed_times, with_answer, without_times
+        from fieldhand.planning.grammar.times import asked_time, assumed_times, warned_times, with_answer, without_times
 
         times = without_times(words, _earlier(words, site, robot))
         if times is None:
@@ -116,40 +116,31 @@ class EnglishPlanner:
             return outcome
         if times.beside_any(outcome.task.command.no_part):  # "the crew arrives at 7 am" is told of the crew
             return None
-        if (odd := _longer_than_interval(outcome, request)) is not None:
-            return Refused(reasons=(odd,), planner=NAME)
+        steps = tuple(walk(outcome.task.composition.plan))
+        if part.awaits and not any(step.act is not None or step.work is not None for step in steps):
+            return None  # "wait there until 6 pm and come back"
+        if _waits_longer_than_interval(outcome):
+            return None  # "wait an hour there and read CO2 every ten minutes" is one mission
         if asked is not None:
             choices = tuple(said for said, _ in asked.choices)
             return Clarify(question=asked.question, choices=choices, planner=NAME, free=True)
-        assumed = assumed_times(part)
-        if answered is None and not assumed:
+        assumed, warned = assumed_times(part), warned_times(part)
+        if answered is None and not assumed and not warned:
             return outcome
         command = outcome.task.command
         said = assumed if answered is None else (answered[1].sentence(), *assumed)
-        stated = replace(command, assumptions=(*said, *command.assumptions))
+        warnings = (*command.warnings, *warned)
+        stated = replace(command, assumptions=(*said, *command.assumptions), warnings=warnings)
         return replace(outcome, task=replace(outcome.task, command=stated))
 
 
-def _longer_than_interval(planned: Planned, request: str) -> Reason | None:
-    """Return the reason against runs so close that a wait in one lasts until the next; None otherwise.
-
-    "Stay for an hour and read CO2 every ten minutes" is one mission, not one of an hour every ten minutes.
-    """
+def _waits_longer_than_interval(planned: Planned) -> bool:
+    """Return True for runs so close that the waits of one last until the next."""
     schedule = planned.task.timing
     if not isinstance(schedule, Schedule) or not schedule.every_min:
-        return None
+        return False
     waits = sum(node.seconds for node in walk(planned.task.composition.plan) if isinstance(node, Wait))
-    if waits < 60.0 * schedule.every_min:
-        return None
-    said = schedule.said[0] if schedule.said else (0, len(request))
-    return Reason(
-        what=message(
-            "'{said}': each run would wait until the next one is due", said=request[said[0] : said[1]].strip(" ,.")
-        ),
-        said=(said,),
-        advice=message("say 'read CO2 6 times, 10 minutes apart'"),
-        final=True,
-    )
+    return waits >= 60.0 * schedule.every_min
 
 
 def _earlier(words: Sequence[Word], site: Site, robot: RobotProfile) -> frozenset[int]:

@@ -92,8 +92,26 @@ def _flags(site: Site) -> Iterator[tuple[Phrase, NameEntry]]:
             found.setdefault((*head, form), []).append((attribute, True))
             for before in ("un", "non"):
                 found.setdefault((*head, f"{before}{form}"), []).append((attribute, False))
+    words = vocabulary()["plants"]
+    sick = [
+        name for name, values in site.attributes.items() if is_flag(values) and {*split(name)} & {*words["diseases"]}
+    ]
+    if len(sick) == 1:  # "healthy" beside the only disease that the file records
+        for phrases, value in ((words["sick"], True), (words["healthy"], False)):
+            for phrase in phrases:
+                found.setdefault(split(phrase), []).append((sick[0], value))
     for phrase, meant in found.items():
-        yield phrase, NameEntry(kind="FLAG", value=tuple(meant))
+        yield phrase, NameEntry(kind="FLAG", value=tuple(dict.fromkeys(meant)))
+        if phrase[-1].endswith("ed") and all(value for _, value in meant):
+            for form in _nouns_of(phrase[-1]):
+                yield (*phrase[:-1], form), NameEntry(kind="FLAGNOUN", value=tuple(meant))
+
+
+def _nouns_of(participle: str) -> set[str]:
+    """Return the nouns of which a participle may be made: "cover" and "covers" of "covered", "net" of "netted"."""
+    stem = participle.removesuffix("ed")
+    single = {stem, f"{stem}e"} | ({stem[:-1]} if stem[-1:] == stem[-2:-1] else set())
+    return single | {plural_of(one) for one in single}
 
 
 def is_flag(values: tuple[str | float | bool, ...]) -> bool:

@@ -150,8 +150,9 @@ def wishes(words: Sequence[Word], lexicon: Lexicon) -> list[Wish]:
     """Return all wishes, but for those that the robot or the site has a word for ("mow" on a robot that mows)."""
     own = _own_phrases(lexicon)
     attributes = frozenset(phrase for phrase, entry in lexicon.own.items() if entry.kind == "ATTR")
+    nouns = frozenset(phrase for phrase, entry in lexicon.own.items() if entry.kind == "NOUN")
     names = list(_named(words, own))
-    found = [wish for wish in _found(words, wish_kinds()) if not _is_own(wish, words, own, attributes)]
+    found = [wish for wish in _found(words, wish_kinds()) if not _is_own(wish, words, own, attributes, nouns)]
     return _longest([w for w in found if w.kind.early or not any(a <= w.first and w.last <= b for a, b in names)])
 
 
@@ -195,7 +196,9 @@ def _named(words: Sequence[Word], own: frozenset[Phrase]) -> Iterator[tuple[int,
                 yield first, last
 
 
-def _is_own(wish: Wish, words: Sequence[Word], own: frozenset[Phrase], attributes: frozenset[Phrase]) -> bool:
+def _is_own(
+    wish: Wish, words: Sequence[Word], own: frozenset[Phrase], attributes: frozenset[Phrase], nouns: frozenset[Phrase]
+) -> bool:
     """Return True if the robot or the site has a word for what is wished for: its verb, or its last noun.
 
     An attribute of the site's plants is none for a reading of more words: "measure the soil moisture".
@@ -203,8 +206,8 @@ def _is_own(wish: Wish, words: Sequence[Word], own: frozenset[Phrase], attribute
     if wish.kind.early:
         return False
     norms = tuple(word.norm for word in words[wish.first : wish.last])
-    if wish.kind.begins:
-        return any(norms[:length] in own for length in range(1, len(norms) + 1))
+    if wish.kind.begins:  # "spray row 3", "take leaf samples"
+        return any(norms[:end] in own or norms[-end:] in nouns for end in range(1, len(norms) + 1))
     named = [norms[-length:] for length in range(1, len(norms) + 1) if norms[-length:] in own]
     return any(phrase not in attributes or len(phrase) == len(norms) for phrase in named)
 

@@ -86,8 +86,8 @@ def part_of_fence(fence: s.Selector, site: Site) -> Impossible | None:
     if not is_keep_out(fence, site):
         return None
     return Impossible(
-        message("an edge is worked all the way round, not in parts, and in no direction that can be said"),
-        message("say 'film along the fence' without its ends"),
+        message("an edge is worked all the way round, or along one side of it"),
+        message("say the side: 'film the west side of the fence from south to north'"),
     )
 
 
@@ -121,10 +121,9 @@ def nothing_between(low: Lex | Amount, high: Lex | Amount) -> Impossible | None:
 
 @construction("FROM TREEID range_to TREEID", "BETWEEN TREEID AND TREEID")
 def part_of_a_row() -> Impossible:
-    """Compose "from G4-03 to G4-13" behind work along a row."""
+    """Compose "from G4-03 to H2-13" behind work along a row."""
     return Impossible(
-        message("work along a row is done along the whole row: a part of it cannot be said yet"),
-        message("name the row: 'spray row 4'"),
+        message("these two trees do not stand in one row"), message("name two trees of one row, or the rows")
     )
 
 
@@ -259,7 +258,7 @@ def in_an_aisle() -> Impossible:
     """Compose "the aisle"."""
     return Impossible(
         message("an aisle is not a place where something can be done"),
-        message("say along which row, or at which trees"),
+        message("say along which row, at which trees, or 'in the middle of the aisle between rows 3 and 4'"),
     )
 
 
@@ -268,9 +267,6 @@ def work_at_places(where: PlaceMeaning) -> Impossible | None:
     """Compose "spray tree 4"."""
     if where.shape == "area":
         return None
-    several = len(where.selector.members) > 2
-    if several or any(isinstance(part, s.Rows) for part in where.selector.walk()):
-        return part_of_a_row()  # "spray row 4 from G4-03 to G4-13"
     return Impossible(
         message("this is done while driving along a path, not at single trees"),
         message("say along which rows, between which rows, or over which area"),
@@ -404,20 +400,6 @@ def too_long(time: Amount) -> Impossible | None:
     if time.unit != "seconds" or 0.0 < time.number <= LONGEST_WAIT_S:
         return None
     return Impossible(message("a wait lasts at most 24 hours"), message("say a shorter time, or plan two missions"))
-
-
-@construction(
-    "[DET] STRIP amount=amount DIMENSION", "[DET] amount=amount [DASH] [DIMENSION] STRIP",
-    "[DET] amount=amount [DASH] DIMENSION STRIP",
-    given=("robot",),
-)  # fmt: skip
-def strip_of_a_width(amount: Amount, robot: RobotProfile) -> Impossible | None:
-    """Compose "a strip three metres wide", which is as wide as the implement."""
-    widths = [width for one in robot.actions if one.implement is not None and (width := one.implement.width_m)]
-    if amount.unit != "metres" or not widths:
-        return None
-    what = message("a strip along an edge is as wide as the implement, {width} m", width=Number(f"{max(widths):g}"))
-    return Impossible(what, message("leave out the width and say how many laps: 'mow one lap around the paddock'"))
 
 
 @construction("way=CLOCKWISE")

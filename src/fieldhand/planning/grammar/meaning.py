@@ -231,6 +231,12 @@ def wait_seconds(action: str) -> float | None:
     return float(action.removeprefix(_WAIT)) if action.startswith(_WAIT) else None
 
 
+def rested_things(once: tuple[Thing, ...], times: int, seconds: float) -> tuple[Thing, ...]:
+    """Return captures several times, with a wait between one time and the next."""
+    again = (wait_thing(seconds), *once)
+    return (*once, *(again * (times - 1)))
+
+
 @dataclass(frozen=True, slots=True)
 class SettleClause:
     """A wait before each capture of some actions; of all, if the phrase names none (``LAST_THING``)."""
@@ -272,6 +278,8 @@ class CaptureCommand:
         spacing: Distance between the captures along a line, in metres.
         within: Area or rows in which the place is, if the phrase names them by themselves ("in row 3, at the ...").
         instead: True if it is done in place of what another case has.
+        every_s: Seconds from one time to the next, if it is done again and again ("every ten minutes").
+        for_s: Seconds for which it is done again and again ("for an hour").
     """
 
     things: tuple[Thing, ...]
@@ -282,6 +290,8 @@ class CaptureCommand:
     relation: str = "at"
     within: PlaceMeaning | None = None
     instead: bool = False
+    every_s: float = 0.0
+    for_s: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -642,6 +652,7 @@ class Again:
         in_all: True if the number includes what was done so far.
         whole: True if the phrase says that all of it is repeated, from the first place on.
         both: True if the phrase says that it was done at two places ("both again").
+        rest_s: Seconds of the wait before each repetition ("half an hour later").
     """
 
     place: PlaceMeaning | None
@@ -650,6 +661,7 @@ class Again:
     in_all: bool = False
     whole: bool = False
     both: bool = False
+    rest_s: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,6 +14,7 @@ from fieldhand.places.resolution import Resolution, resolve
 from fieldhand.places.wording import say_selector
 from fieldhand.planning.foreseen import foreseeable
 from fieldhand.planning.grammar.dialogue.energy import MeantRecharging
+from fieldhand.planning.grammar.dialogue.other_ground import with_bare_corners
 from fieldhand.planning.grammar.dialogue.watching import with_visits
 from fieldhand.planning.grammar.earlier.unsaid import tells_earlier_missions, with_quantities
 from fieldhand.planning.grammar.meaning import WayRule
@@ -98,7 +99,7 @@ def planned_as(meant: Meant, request: str, site: Site, robot: RobotProfile) -> O
     plan = with_quantities(meant.plan, robot)
     if plan is None:
         return Refused(reasons=(_open_quantity(meant.plan),), planner=NAME)
-    meant = replace(meant, plan=plan)
+    meant = replace(meant, plan=with_bare_corners(plan, site))
     if not meant.limits and any(node.rewarded_first != "value" for node in p.walk(plan)):
         asked = message("As many of the best as possible: within which time, distance or share of the battery?")
         return Clarify(question=asked, planner=NAME)

@@ -20,7 +20,7 @@ _NEVER = frozenset(
     }
 )  # fmt: skip
 #: Categories of words that name trees or a part of the site.
-_PLACES = frozenset(
+PLACE_WORDS = frozenset(
     {
         "AISLE", "ATTRVAL", "BLOCKNAME", "CHARGER", "CORNER", "DIR", "EDGE", "GATENAME", "HALF", "MIDDLE", "MOST",
         "OLDS", "QUARTER", "ROW", "ROWNAME", "SOMEOFTHEM", "START", "SUPER", "TREE", "TREEID", "ZONE",
@@ -85,7 +85,7 @@ class WordKinds:
 
     def names_place(self, k: int) -> bool:
         """Return True for a word that names trees or a part of the site."""
-        return bool(self.kinds[k] & (_PLACES - _DESCRIBING))
+        return bool(self.kinds[k] & (PLACE_WORDS - _DESCRIBING))
 
 
 def telling(said: Sequence[int], known: WordKinds, *, sentence: bool) -> Telling | None:
@@ -112,7 +112,7 @@ def telling(said: Sequence[int], known: WordKinds, *, sentence: bool) -> Telling
         return None
     states = any("STATES" in one for one in kinds)
     refers_back = _refers_back(said[-1] + 1, known)
-    if not any(known.may_be(k, _PLACES) for k in begun):
+    if not any(known.may_be(k, PLACE_WORDS) for k in begun):
         first = begun[0] <= _first_word(known)
         if not first and (refers_back or not (states or asks or hopes or _describes(begun, known))):
             return None
@@ -268,7 +268,7 @@ def place_words(said: Sequence[int], known: WordKinds) -> Sequence[Sequence[int]
     """
     found: list[list[int]] = [[]]
     for at, k in enumerate(said):
-        fits = known.kinds[k] & (_PLACES | _IN_PLACES) or _is_age(k, said, known) or _counts(at, said, known)
+        fits = known.kinds[k] & (PLACE_WORDS | _IN_PLACES) or _is_age(k, said, known) or _counts(at, said, known)
         joins = bool(found[-1]) and known.words[k].norm in _JOINTS and _goes_on(at + 1, said, known)
         if joins or (fits and not known.kinds[k] & {"STATES", "THEREIS"} and known.words[k - 1].kind != "comma"):
             found[-1].append(k)
@@ -305,6 +305,6 @@ def _goes_on(at: int, said: Sequence[int], known: WordKinds) -> bool:
 
 def _trimmed(run: Sequence[int], known: WordKinds) -> Sequence[int]:
     """Return the words of a place without what stands before and behind it."""
-    begin = next(at for at, k in enumerate(run) if not known.kinds[k] & {"AT", "OF"} or known.kinds[k] & _PLACES)
-    end = max(at for at, k in enumerate(run) if known.kinds[k] & (_PLACES | {"NUM", "PLOT"}))
+    begin = next(at for at, k in enumerate(run) if not known.kinds[k] & {"AT", "OF"} or known.kinds[k] & PLACE_WORDS)
+    end = max(at for at, k in enumerate(run) if known.kinds[k] & (PLACE_WORDS | {"NUM", "PLOT"}))
     return run[begin : end + 1]

@@ -12,6 +12,7 @@ import shapely
 from shapely.geometry import LineString, Point, Polygon
 from shapely.geometry.base import BaseGeometry
 
+from fieldhand.site.bearings import bearing_of
 from fieldhand.site.driving.free_space import FreeSpace
 from fieldhand.site.driving.graph import Points
 from fieldhand.site.driving.row_obstacles import RowObstacle, row_obstacles
@@ -121,6 +122,16 @@ class Aisle:
         tolerance = _MIDDLE * abs(float(self.width(u[len(u) // 2])))
         line = shapely.linestrings(np.column_stack([u, self.middle(u)]))
         return shapely.get_coordinates(shapely.simplify(line, tolerance))
+
+    def axis_deg(self, xy: tuple[float, float]) -> float:
+        """Return its bearing at a point: that of its block, or where rows are bent of its middle line."""
+        along = self.frame.along
+        if not self.is_straight:
+            line = self.middle_line
+            k = int(np.searchsorted(line[:, 0], float(self.frame.local(np.array([xy]))[0, 0]))) - 1
+            k = min(max(k, 0), len(line) - 2)
+            along = np.diff(self.frame.world(line[k : k + 2]), axis=0)[0]
+        return bearing_of((0.0, 0.0), (float(along[0]), float(along[1])))
 
     @property
     def entries(self) -> Points:

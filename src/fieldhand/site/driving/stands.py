@@ -100,6 +100,29 @@ class StandCandidates:
             for p, tree in zip(places, trees, strict=True)
         ]
 
+    def across(self, place: Place) -> XY | None:
+        """Return the direction across the row of a tree or gap, east and north; None for a place in no row.
+
+        Near a straight aisle it is that of the block, else that of the row at the tree.
+        """
+        if not place.planted or not self._layout.aisles.groups:
+            return None
+        index = self._planted_index(place)
+        if index is None or self._row_of[index] < 0:
+            return None
+        group, _ = self._line_of[int(self._row_of[index])]
+        aisle = self._layout.aisle(place.stand or place.xy)
+        bent = aisle is None or not aisle.is_straight
+        return _xy(self._across(np.array([index]), group, bent=bent)[0])
+
+    def row_ends(self, place: Place) -> tuple[XY, ...]:
+        """Return the first and the last tree of the row of a tree or gap; empty for a place in no row."""
+        index = self._planted_index(place)
+        if index is None or self._row_of[index] < 0:
+            return ()
+        trees = self._site.planting.rows[int(self._row_of[index])].trees
+        return _xy(self._site.xy[trees[0]]), _xy(self._site.xy[trees[-1]])
+
     def _is_open(self, place: Place) -> bool:
         """Return True for a side of a tree that stands in no row, whose stand is to be chosen."""
         tree = self._site.by_id.get(place.id) if place.side and place.stand is None else None
@@ -143,9 +166,13 @@ class StandCandidates:
         place."""
         if place.stand is not None or not place.planted or not self._layout.aisles.groups:
             return None
+        return self._planted_index(place)
+
+    def _planted_index(self, place: Place) -> int | None:
+        """Return the index of a tree, for a gap that after the trees; None for any other place."""
         if place.kind == "gap":
             return self._gap_index.get(place.xy)
-        tree = self._site.by_id.get(place.id)
+        tree = self._site.by_id.get(place.id) if place.kind == "tree" else None
         return None if tree is None else tree.index
 
     @cached_property

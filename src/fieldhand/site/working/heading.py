@@ -1,4 +1,4 @@
-"""Rows and aisles that are driven towards one side of the compass."""
+"""Rows, aisles and edges that are driven towards one side of the compass."""
 
 from __future__ import annotations
 
@@ -15,7 +15,8 @@ from fieldhand.terms import Side
 
 #: Bearings of the lanes of an area, in degrees clockwise from north.
 LANE_BEARINGS: Mapping[str, float] = {"north_south": 0.0, "east_west": 90.0}
-_TOWARDS: Mapping[Side, tuple[float, float]] = {"north": (0, 1), "east": (1, 0), "south": (0, -1), "west": (-1, 0)}
+#: Directions of the sides of the compass in metres east and north.
+TOWARDS: Mapping[Side, tuple[float, float]] = {"north": (0, 1), "east": (1, 0), "south": (0, -1), "west": (-1, 0)}
 #: A stretch leads towards a side of the compass within 60 degrees.
 _LEADS_COS = 0.5
 
@@ -59,5 +60,5 @@ def _ahead(stretch: Stretch, side: Side) -> float:
     """Return the cosine of the angle between a stretch and a side of the compass."""
     (ax, ay), (bx, by) = stretch.begin, stretch.end
     away = math.dist(stretch.begin, stretch.end)
-    x, y = _TOWARDS[side]
+    x, y = TOWARDS[side]
     return ((bx - ax) * x + (by - ay) * y) / away if away else 0.0

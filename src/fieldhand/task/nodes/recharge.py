@@ -21,7 +21,7 @@ class Recharge(PlanNode):
 
     Attributes:
         until_percent: Charge at which charging ends; by default that of the robot's profile.
-        duration_s: Time at the charger in seconds instead; with both, whichever comes first ends the charge.
+        duration_s: Seconds at the charger instead; with both, whichever is over first.
     """
 
     id: str = ""

@@ -26,7 +26,7 @@ WorkHeading = Literal["any", "north_south", "east_west", "north", "east", "south
 
 @dataclass(frozen=True, kw_only=True)
 class WorkAlong(PlanNode):
-    """An action that is on while the robot drives along rows, through aisles, over an area or along its edge.
+    """An action that is on while driving along rows, through aisles, over an area or along its edge.
 
     Without an action the robot only drives.
 
@@ -37,18 +37,18 @@ class WorkAlong(PlanNode):
     Attributes:
         action: The action; empty to drive only.
         parameters: Name and value of each parameter that the profile declares for the action.
-        along: Trees of the rows; with ``area`` and ``perimeter`` the zone, block or trees.
+        along: Trees of the rows; with ``area`` and ``perimeter`` the zone or trees.
         along_said: Character ranges of the request that name them.
         mode: ``rows``: beside each row, from first to last tree. ``aisles``: between neighbouring rows.
             ``headlands``: along both ends of the rows. ``area``: all ground, lane by lane. ``perimeter``: its edge.
-        sides: Sides of each row: any one, both, or one of the compass.
+        sides: Sides of each row: any one, both, or one of the compass. With ``perimeter``, that side of it.
         every: With ``aisles``, 2 for every second aisle.
-        heading: With ``area``, ``north_south`` or ``east_west`` for the direction of its lanes. With ``rows`` and
-            ``aisles``, the side of the compass towards which each of them is driven.
+        heading: With ``area``, ``north_south`` or ``east_west``: direction of its lanes. Else the side towards which
+            each row, aisle or side of an edge is driven.
         laps: Times that the whole is done.
         gaps: ``on`` to keep the action on in gaps of a row.
-        order: ``best`` for short drives between stretches; ``given`` for the selector's order.
-        optional: Stretches may be dropped to keep the budget ("as much as you can").
+        order: As of a for-each.
+        optional: As much as the budget allows ("as much as you can").
     """
 
     id: str = ""

@@ -23,6 +23,9 @@ def _of_hint(hint: Any) -> st.SearchStrategy[Any]:
         return st.sampled_from(inner)
     if origin in (Union, UnionType):
         return st.one_of(*(st.none() if one is NoneType else _of_hint(one) for one in inner))
+    if dataclasses.is_dataclass(hint):
+        kinds = get_type_hints(hint)
+        return st.builds(hint, **{f.name: _of_hint(kinds[f.name]) for f in dataclasses.fields(hint)})  # type: ignore[arg-type]
     if origin is tuple and inner[-1] is ...:
         return st.lists(_of_hint(inner[0]), max_size=3).map(tuple)
     if origin is tuple:

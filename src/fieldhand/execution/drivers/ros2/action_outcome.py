@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Literal
 
-from fieldhand.execution.drivers.protocol import GoalFault, GoalState
+from fieldhand.execution.drivers.protocol import CapturedImage, GoalFault, GoalState
 from fieldhand.execution.drivers.ros2.transport import RosMessage
 
 #: Seconds without any server after which it counts as gone; shorter gaps occur in discovery.
@@ -58,6 +58,7 @@ class GoalEnd:
     what: str = ""
     fault: GoalFault = "none"
     readings: Mapping[str, float] = field(default_factory=dict)
+    images: tuple[CapturedImage, ...] = ()
 
 
 @dataclass(kw_only=True)

@@ -11,25 +11,36 @@ message is a failure that names the topic.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Collection, Generator, Mapping
+from collections.abc import Callable, Collection, Generator, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from fieldhand.errors import Ros2Error
-from fieldhand.execution.drivers.protocol import ActionGoal
+from fieldhand.execution.drivers.protocol import ActionGoal, CapturedImage
 from fieldhand.execution.drivers.ros2.action_client import ActionClient
 from fieldhand.execution.drivers.ros2.action_outcome import ActionOutcome, GoalEnd
+from fieldhand.execution.drivers.ros2.images import image_of
 from fieldhand.execution.drivers.ros2.message_fields import message_of, number_at, value_at
 from fieldhand.execution.drivers.ros2.service_call import TimeLimit, call_service
-from fieldhand.execution.drivers.ros2.transport import Client, QosProfile, RosMessage, Subscription, Transport
-from fieldhand.robot.bindings import ActionBinding, CallBinding, NextMessage, RequestValue, Ros2Bindings
+from fieldhand.execution.drivers.ros2.transport import (
+    MOST_IMAGE_BYTES,
+    Client,
+    QosProfile,
+    RosMessage,
+    Subscription,
+    Transport,
+)
+from fieldhand.execution.robot_text import robot_text
+from fieldhand.robot.bindings import ActionBinding, CallBinding, NextImage, NextMessage, RequestValue, Ros2Bindings
 
 #: Seconds to find an action server, and to get a goal accepted.
 ACCEPT_S = 5.0
 
-#: Messages of a topic that are kept between two polls.
-_DEPTH = 10
+#: Messages of a topic that are kept between two polls; of images only the newest.
+_DEPTH, _IMAGES = 10, 1
 
 GoalSteps = Generator[None, None, GoalEnd]
+Steps = Generator[None, None, None]
+_IMAGE = "image: "
 Readings = dict[str, float]
 
 
@@ -78,7 +89,7 @@ class CaptureClient:
         new_id: Callable[[], bytes],
         only: Collection[str] | None = None,
     ) -> None:
-        self.clock, self.steady, self._bindings = clock, steady, bindings
+        self.clock, self.steady, self._bindings, self._transport = clock, steady, bindings, transport
         self.bound = {
             name: self._bind(transport, binding, new_id)
             for name, binding in bindings.actions.items()
@@ -93,6 +104,14 @@ class CaptureClient:
     def whole_name(self, name: str) -> str:
         """Return a name with the robot's namespace."""
         return self._bindings.whole_name(name)
+
+    def subscribe(self, image: NextImage) -> tuple[str, Subscription]:
+        """Subscribe to an image, and return the full name of its topic, too. The caller closes it.
+
+        Images are large, so the program listens to them only during a capture.
+        """
+        name, qos = self.whole_name(image.topic), QosProfile(reliable=image.reliable, depth=_IMAGES)
+        return name, self._transport.subscribe(name, image.type, qos)
 
     def close(self) -> None:
         """Close all endpoints without sending anything."""
@@ -166,8 +185,26 @@ class RunningCapture:
         bound = self._captures.bound.get(self._goal.action)
         if bound is None:
             return _failed(f"the profile does not define how {self._goal.action} is done over ROS 2")
+        images = {name: self._captures.subscribe(image) for name, image in bound.binding.images.items()}
+        try:
+            yield from self._await_publishers(bound, images)
+            return (yield from self._take(bound, images))
+        finally:
+            for _, subscription in images.values():
+                subscription.close()
+
+    def _await_publishers(self, bound: BoundAction, images: Mapping[str, tuple[str, Subscription]]) -> Steps:
+        """Wait until the images would be received; without a publisher, until their time is over."""
+        limits = {name: self._limit(image.within_s) for name, image in bound.binding.images.items()}
+        while not self._cancelled:
+            if all(images[name][1].publishers() or limit.over for name, limit in limits.items()):
+                return
+            yield
+
+    def _take(self, bound: BoundAction, images: Mapping[str, tuple[str, Subscription]]) -> GoalSteps:
+        """Make the capture."""
         ending = GoalEnd(state="succeeded")
-        call, latest = bound.binding.call, _LatestMessages(bound.topics)
+        call, latest = bound.binding.call, _LatestMessages({**bound.topics, **_keyed(images)})
         latest.forget()
         if call is not None:
             request = message_of({path: self._value(value) for path, value in call.request.items()})
@@ -175,9 +212,9 @@ class RunningCapture:
                 ending = yield from self._call_action(bound.action, call, request, latest)
             elif bound.service is not None:
                 ending = yield from self._call_service(bound.service, call, request, latest)
-        if ending.state != "succeeded" or not bound.topics:
+        if ending.state != "succeeded" or not (bound.topics or images):
             return ending
-        return (yield from self._wait_for_topics(bound, latest, dict(ending.readings)))
+        return (yield from self._wait_for_topics(bound, latest, ending, images))
 
     def _value(self, value: RequestValue) -> RequestValue:
         """Return a constant, a parameter, or a property of the capture's place."""
@@ -238,26 +275,42 @@ class RunningCapture:
             latest.listen()
         return GoalEnd(state="cancelled")
 
-    def _wait_for_topics(self, bound: BoundAction, latest: _LatestMessages, readings: Readings) -> GoalSteps:
+    def _wait_for_topics(
+        self,
+        bound: BoundAction,
+        latest: _LatestMessages,
+        called: GoalEnd,
+        images: Mapping[str, tuple[str, Subscription]],
+    ) -> GoalSteps:
         """Wait for the next message of each topic; after the time limit, use the last one since the call was sent."""
         latest.listen()
         before = dict(latest.last)
         latest.forget()
-        wanted: dict[str, tuple[NextMessage, TimeLimit]] = {
+        wanted: dict[str, tuple[NextMessage | NextImage, TimeLimit]] = {
             quantity: (message, self._limit(message.within_s)) for quantity, message in bound.binding.topics.items()
         }
+        wanted |= {_key(name): (image, self._limit(image.within_s)) for name, image in bound.binding.images.items()}
+        readings, taken = dict(called.readings), list(called.images)
         while not self._cancelled:
             latest.listen()
-            for quantity, (message, limit) in list(wanted.items()):
-                came = latest.last.get(quantity, before.get(quantity) if limit.over else None)
+            for key, (message, limit) in list(wanted.items()):
+                came = latest.last.get(key, before.get(key) if limit.over else None)
                 if came is not None:
-                    del wanted[quantity]
-                    readings |= _reading(quantity, number_at(came, message.value))
+                    del wanted[key]
+                    if isinstance(message, NextMessage):
+                        readings |= _reading(key, number_at(came, message.value))
+                    else:
+                        label = key.removeprefix(_IMAGE)
+                        taken.append(image_of(came, label, images[label][0]))
+                elif limit.over and isinstance(message, NextMessage):
+                    name = bound.topics[key][0]
+                    return _failed(f"no message on {name} within {limit.seconds:g} s, so there is no {key}")
                 elif limit.over:
-                    name = bound.topics[quantity][0]
-                    return _failed(f"no message on {name} within {limit.seconds:g} s, so there is no {quantity}")
+                    label = key.removeprefix(_IMAGE)
+                    most = f"one of more than {MOST_IMAGE_BYTES // 1024**2} MiB is not read"
+                    return _failed(f"no image on {images[label][0]} within {limit.seconds:g} s ({most})")
             if not wanted:
-                return GoalEnd(state="succeeded", readings=readings)
+                return GoalEnd(state="succeeded", readings=readings, images=tuple(taken))
             yield
         return GoalEnd(state="cancelled")
 
@@ -268,7 +321,29 @@ def capture_end(result: RosMessage, call: CallBinding, name: str) -> GoalEnd:
         return _failed(f"{name} did not succeed{_failure_message(result, call)}")
     pairs = ((quantity, number_at(result, binding)) for quantity, binding in call.readings.items())
     readings = dict(itertools.chain.from_iterable(_reading(*pair).items() for pair in pairs))
-    return GoalEnd(state="succeeded", readings=readings)
+    return GoalEnd(state="succeeded", readings=readings, images=tuple(_images(result, call, name)))
+
+
+def _images(result: RosMessage, call: CallBinding, name: str) -> Iterator[CapturedImage]:
+    """Yield the images of a reply.
+
+    Raises:
+        Ros2Error: One is missing or cannot be used.
+    """
+    for label, path in call.images.items():
+        found = value_at(result, path)
+        if not isinstance(found, Mapping):
+            raise Ros2Error(f"{name} returned no image {label} at {path}")
+        yield image_of(found, label, name)
+
+
+def _key(image: str) -> str:
+    """Return the key of an image among the topics of a capture; no quantity has such a name."""
+    return f"{_IMAGE}{image}"
+
+
+def _keyed(images: Mapping[str, tuple[str, Subscription]]) -> dict[str, tuple[str, Subscription]]:
+    return {_key(name): found for name, found in images.items()}
 
 
 def _reading(quantity: str, value: float | None) -> Readings:
@@ -278,7 +353,8 @@ def _reading(quantity: str, value: float | None) -> Readings:
 def _failure_message(result: RosMessage, call: CallBinding) -> str:
     """Return the failure message of a reply, with a leading colon; empty if it has none."""
     words = value_at(result, call.message) if call.message else None
-    return f": {words.strip()}" if isinstance(words, str) and words.strip() else ""
+    said = robot_text(words.strip()) if isinstance(words, str) else ""
+    return f": {said}" if said else ""
 
 
 def _failed(what: str) -> GoalEnd:

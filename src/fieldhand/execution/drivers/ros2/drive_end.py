@@ -8,6 +8,7 @@ from fieldhand.execution.drivers.protocol import GoalFault
 from fieldhand.execution.drivers.ros2.action_outcome import ActionOutcome, GoalEnd
 from fieldhand.execution.drivers.ros2.nav2_codes import CODES, MISSED_WAYPOINT, OCCUPIED_GOAL
 from fieldhand.execution.drivers.ros2.transport import RosMessage
+from fieldhand.execution.robot_text import robot_text
 from fieldhand.robot.bindings import NavigationBinding
 
 
@@ -70,4 +71,4 @@ def _code(result: RosMessage) -> int:
 
 def _message_of_nav2(result: RosMessage) -> str:
     text = result.get("error_msg")
-    return text.strip() if isinstance(text, str) else ""
+    return robot_text(text.strip()) if isinstance(text, str) else ""

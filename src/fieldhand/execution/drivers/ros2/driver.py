@@ -25,6 +25,7 @@ from fieldhand.execution.drivers.ros2.capture import CaptureClient, RunningCaptu
 from fieldhand.execution.drivers.ros2.event_topics import EventTopics
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.navigation import NavigationClient, RunningDrive
+from fieldhand.execution.drivers.ros2.route_drive import RouteDrive
 from fieldhand.execution.drivers.ros2.startup import Startup
 from fieldhand.execution.drivers.ros2.telemetry import Telemetry
 from fieldhand.execution.drivers.ros2.transport import Transport
@@ -170,7 +171,8 @@ class Ros2Driver:
     def start_drive(self, goal: DriveGoal) -> None:
         work = goal.work
         if work is None:
-            self._begin(lambda: RunningDrive(self._navigation, goal))
+            drive = RouteDrive if self._navigation.has_routes and goal.length_m > 0.0 else RunningDrive
+            self._begin(lambda: drive(self._navigation, goal))
         else:
             self._begin(lambda: RunningStretch(self._navigation, self._implements, goal, work))
 
@@ -203,7 +205,9 @@ class Ros2Driver:
         self._telemetry.listen()
         position = self._last_position()
         assert position is not None  # noqa: S101  connected only where it is known
-        return position
+        heading = self._navigation.heading_of(self._telemetry.yaw)
+        heading = self._navigation.heading_deg if heading is None else heading
+        return position if heading is None else dataclasses.replace(position, heading_deg=heading)
 
     def charge_percent(self) -> float:
         self._telemetry.listen()
@@ -222,6 +226,10 @@ class Ros2Driver:
 
     def taken(self) -> str | None:
         return self._navigation.taken()
+
+    def odometer_m(self) -> float | None:
+        self._telemetry.listen()
+        return self._telemetry.odometer_m
 
     def stopped(self) -> str | None:
         self._receive()
@@ -313,6 +321,7 @@ class Ros2Driver:
             metres=self._telemetry.metres - self._begun_m,
             seconds=max(0.0, self._clock.now() - self._begun_s),
             readings=ending.readings,
+            images=ending.images,
             what=ending.what,
             fault=ending.fault,
         )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import itertools
 import math
 from collections.abc import Callable, Generator, Sequence
@@ -14,6 +15,7 @@ from fieldhand.execution.drivers.ros2.transport import Client, RosMessage
 from fieldhand.robot.bindings import FieldBinding
 from fieldhand.robot.map_datum import degrees_to_map as degrees_to_map
 from fieldhand.robot.map_datum import map_to_degrees as map_to_degrees
+from fieldhand.site.bearings import ahead_of
 
 Point = tuple[float, float]
 
@@ -22,6 +24,11 @@ _SCALE, _SLACK_M = 0.01, 0.25
 
 #: Length in metres of the shortest leg from which the rotation of the map can be computed.
 _TURN_M = 1.0
+
+#: Metres to the corner that gives a heading its yaw in the map; metres of a degree of latitude.
+_AIM_M, _DEGREE_M = 5.0, 111_200.0
+#: Squared length below which a quaternion was not filled in.
+_NO_QUATERNION = 0.5
 
 _X, _Y = FieldBinding(path="map_point.x"), FieldBinding(path="map_point.y")
 
@@ -89,15 +96,36 @@ def orientation(yaw: float) -> RosMessage:
     return {"x": 0.0, "y": 0.0, "z": math.sin(yaw / 2.0), "w": math.cos(yaw / 2.0)}
 
 
-def pose(frame: str, here: Point, there: Point) -> RosMessage:
-    """Return a ``geometry_msgs/msg/PoseStamped`` at the end of a leg, facing along it.
+def yaw_in(message: RosMessage, path: str) -> float | None:
+    """Return the yaw in radians of the quaternion at a path of a message; None if there is none."""
+    x, y, z, w = (number_at(message, FieldBinding(path=f"{path}.{part}")) for part in "xyzw")
+    if x is None or y is None or z is None or w is None or x * x + y * y + z * z + w * w < _NO_QUATERNION:
+        return None
+    return math.atan2(2.0 * (w * z + x * y), w * w + x * x - y * y - z * z)
+
+
+def aimed(goal: DriveGoal, heading_deg: float) -> DriveGoal:
+    """Return a drive with one corner more, ahead of its end in a heading (degrees clockwise from true north).
+
+    The map is rotated against true north by an angle that only the robot may know: the yaw of the heading in the map is
+    that of the leg to this corner.
+    """
+    lat, lon = goal.path_degrees[-1]
+    east, north = ahead_of((0.0, 0.0), heading_deg, _AIM_M)
+    degrees = lat + north / _DEGREE_M, lon + east / (_DEGREE_M * math.cos(math.radians(lat)))
+    there = ahead_of(goal.path_m[-1], heading_deg, _AIM_M)
+    return dataclasses.replace(goal, path_m=(*goal.path_m, there), path_degrees=(*goal.path_degrees, degrees))
+
+
+def pose(frame: str, here: Point, there: Point, yaw: float | None = None) -> RosMessage:
+    """Return a ``geometry_msgs/msg/PoseStamped`` at the end of a leg, facing along it unless a yaw is given.
 
     Its stamp stays 0, which selects the newest transform: the clocks of robot and computer need not agree.
     """
     position = {"x": there[0], "y": there[1], "z": 0.0}
     return {
         "header": {"frame_id": frame},
-        "pose": {"position": position, "orientation": orientation(yaw_of(here, there))},
+        "pose": {"position": position, "orientation": orientation(yaw_of(here, there) if yaw is None else yaw)},
     }
 
 

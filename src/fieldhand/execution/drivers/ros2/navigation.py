@@ -3,9 +3,11 @@
     corners in degrees ──▶ map frame ──▶ NavigateToPose, one corner after the other     ──▶ arrived? ──▶ the mission
                            (datum or     NavigateThroughPoses, all corners at once
                             fromLL)      FollowGPSWaypoints, as degrees
+                                        FollowPath, the way itself
+                                        ComputeAndTrackRoute, the route that it finds (route_drive.py)
 
-At each corner the robot faces along the leg that led there, so it stops parallel to the aisle. Arrival is verified: the
-robot's own position is compared with the target.
+At each corner the robot faces along the leg that led there, and at the end along the aisle, or so that a camera sees
+the plant. Arrival is verified: the robot's own position is compared with the target, and for a camera its heading.
 """
 
 from __future__ import annotations
@@ -24,11 +26,13 @@ from fieldhand.execution.drivers.ros2.drive_end import end_of, ended_without_cod
 from fieldhand.execution.drivers.ros2.headway import Headway
 from fieldhand.execution.drivers.ros2.map_frame import (
     Point,
+    aimed,
     degrees_to_map,
     geographic_pose,
     pose,
     query_map_points,
     site_to_map,
+    yaw_in,
     yaw_of,
 )
 from fieldhand.execution.drivers.ros2.message_fields import number_at, seconds_at, value_at
@@ -36,15 +40,17 @@ from fieldhand.execution.drivers.ros2.node_states import NodeStates
 from fieldhand.execution.drivers.ros2.service_call import TimeLimit
 from fieldhand.execution.drivers.ros2.transport import Client, Publisher, RosMessage, Transport
 from fieldhand.robot.bindings import FieldBinding, Ros2Bindings
+from fieldhand.site.bearings import apart_deg
 
 FROM_LL, SPEED_LIMIT = "robot_localization/srv/FromLL", "nav2_msgs/msg/SpeedLimit"
-FOLLOW_PATH = "nav2_msgs/action/FollowPath"
+FOLLOW_PATH, ROUTE = "nav2_msgs/action/FollowPath", "nav2_msgs/action/ComputeAndTrackRoute"
 
 #: Seconds after the end of a goal within which the position must come within tolerance: fixes lag behind.
 SETTLE_S = 3.0
 #: Metres by which the robot's map position may differ from its simultaneous fix: antennas are mounted off centre.
 ELSEWHERE_M = 5.0
 _FRAME, _STAMP = "current_pose.header.frame_id", "current_pose.header.stamp"
+_ORIENTATION = "current_pose.pose.orientation"
 _X, _Y = (FieldBinding(path=f"current_pose.pose.position.{axis}") for axis in "xy")
 #: Seconds within which the nodes of a navigation that seems to have been restarted are discovered and answer.
 DOUBT_S = 2.5
@@ -109,7 +115,7 @@ class NavigationClient:
             self.binding.type,
             steady=steady,
             accept_s=self.binding.accept_s,
-            quiet_s=self.binding.quiet_s,
+            quiet_s=None if self.has_routes else self.binding.quiet_s,  # a route is reported at its nodes only
             new_id=new_id,
         )
         self.working: ActionClient | None = None
@@ -132,6 +138,10 @@ class NavigationClient:
             )
         self.nodes = NodeStates(transport, bindings, steady=steady)
         self._doubted_s: float | None = None
+        #: Headings in degrees clockwise from north of the robot at the end of its last drive, and of the map's x axis;
+        #: None if unknown.
+        self.heading_deg: float | None = None
+        self._x_axis_deg = None if self.binding.datum is None else self.binding.datum.heading_deg
         self.from_ll_name = bindings.whole_name(self.binding.from_ll) if self.binding.from_ll else ""
         self.from_ll: Client | None = None
         self.speed_name = bindings.whole_name(self.binding.speed_limit) if self.binding.speed_limit else ""
@@ -155,6 +165,11 @@ class NavigationClient:
         """Return the clients of all actions that can move the robot: those that drive, and that of the controller."""
         follows = self.follow is not None and self.follow not in self.clients and self.follow.servers() > 0
         return (*self.clients, self.follow) if follows and self.follow is not None else self.clients
+
+    @property
+    def has_routes(self) -> bool:
+        """True if the route server of the robot determines the ways of ordinary drives."""
+        return self.binding.type == ROUTE
 
     @property
     def has_codes(self) -> bool:
@@ -208,9 +223,20 @@ class NavigationClient:
             yield
         return True
 
+    def heading_of(self, yaw: float | None) -> float | None:
+        """Return the heading in degrees clockwise from north of a yaw in the map; None if it is not known."""
+        if yaw is None or self._x_axis_deg is None:
+            return None
+        return (self._x_axis_deg - math.degrees(yaw)) % 360.0
+
+    def note_heading(self, feedback: RosMessage) -> None:
+        """Take the heading from the feedback of a drive, if it contains one."""
+        if value_at(feedback, _FRAME) == self.binding.frame:
+            self.heading_deg = self.heading_of(yaw_in(feedback, _ORIENTATION))
+
     def client_for(self, goal: DriveGoal) -> ActionClient:
-        """Return the client of the action that carries out a drive."""
-        return self.client if goal.work is None or self.working is None else self.working
+        """Return the client of the action that carries out a drive; of a route, that of the controller."""
+        return self.client if self.working is None or (goal.work is None and not self.has_routes) else self.working
 
     def plan(self, goal: DriveGoal) -> Generator[None, None, NavigationGoals]:
         """Compute the goals of Nav2 for a drive, in steps that yield while waiting for the robot.
@@ -218,40 +244,63 @@ class NavigationClient:
         Raises:
             Ros2Error: The robot's map service does not answer, or answers with implausible points.
         """
-        binding = self.binding
+        binding, heading = self.binding, goal.heading_deg
         if self._by_degrees:
             return NavigationGoals(goals=[(_by_degrees(goal), goal.path_m[-1])])
+        asked = goal if heading is None else aimed(goal, heading)
         if self.from_ll is not None:
             limit = TimeLimit(binding.accept_s, self.steady, self.steady)
-            points = yield from query_map_points(self.from_ll, self.from_ll_name, goal, limit, self.steady)
+            points = yield from query_map_points(self.from_ll, self.from_ll_name, asked, limit, self.steady)
         elif binding.datum is not None:
-            points = degrees_to_map(binding.datum, goal.path_degrees)
+            points = degrees_to_map(binding.datum, asked.path_degrees)
         else:
             raise Ros2Error("neither datum nor from_ll defines where the map lies", advice="name one in the profile")
+        yaw: float | None = None
+        if heading is not None:
+            yaw, points = yaw_of(points[-2], points[-1]), points[:-1]
+            self._x_axis_deg = (heading + math.degrees(yaw)) % 360.0
         placed = site_to_map(goal.path_m, points)
         kind = self.client_for(goal).type
         if kind == "nav2_msgs/action/FollowPath":
-            return NavigationGoals(goals=[(self._path(goal, points), goal.path_m[-1])], site_to_map=placed)
-        poses = [pose(binding.frame, points[i], points[j]) for i, j in _legs(goal.path_m)]
+            return NavigationGoals(goals=[(self._path(goal, points, yaw), goal.path_m[-1])], site_to_map=placed)
+        legs = _legs(goal.path_m)
+        poses = [pose(binding.frame, points[i], points[j], yaw if (i, j) == legs[-1] else None) for i, j in legs]
         if kind == "nav2_msgs/action/NavigateThroughPoses":
             # Kilted uses nav_msgs/Goals: a header, then the poses.
             header: RosMessage = {"frame_id": binding.frame}
             listed = {"header": header, "goals": tuple(poses)} if self.distro == "kilted" else tuple(poses)
             goal_message: RosMessage = {"poses": listed, "behavior_tree": binding.behavior_tree}
             return NavigationGoals(goals=[(goal_message, goal.path_m[-1])], site_to_map=placed)
-        ends = [goal.path_m[j] for _, j in _legs(goal.path_m)]
+        ends = [goal.path_m[j] for _, j in legs]
         each: list[RosMessage] = [{"pose": p, "behavior_tree": binding.behavior_tree} for p in poses]
         return NavigationGoals(goals=list(zip(each, ends, strict=True)), site_to_map=placed)
 
-    def _path(self, goal: DriveGoal, points: Sequence[Point]) -> RosMessage:
-        """Return a goal that follows a path exactly, with points close to each other as controllers expect."""
+    def _path(self, goal: DriveGoal, points: Sequence[Point], yaw: float | None) -> RosMessage:
+        """Return a goal that follows a path exactly; it ends at the given yaw, else along its last leg."""
+        legs = _legs(goal.path_m)
+        return self.follow_goal([points[legs[0][0]], *(points[j] for _, j in legs)], yaw)
+
+    def follow_goal(self, points: Sequence[Point], yaw: float | None) -> RosMessage:
+        """Return a goal of the controller: a path in the map, with points close to each other as controllers expect.
+
+        Args:
+            points: Corners of the path, at least two.
+            yaw: Yaw at its end; None for that of the last leg.
+        """
         frame = self.binding.frame
         poses: list[RosMessage] = []
-        for i, j in _legs(goal.path_m):
-            steps = max(1, math.ceil(math.dist(points[i], points[j]) / _PATH_STEP_M))
-            poses += [_pose_on(frame, points[i], points[j], k / steps) for k in range(0 if not poses else 1, steps + 1)]
+        for one, two in itertools.pairwise(points):
+            steps = max(1, math.ceil(math.dist(one, two) / _PATH_STEP_M))
+            poses += [_pose_on(frame, one, two, k / steps) for k in range(0 if not poses else 1, steps + 1)]
+        if yaw is not None:
+            still = all(math.dist(one, points[-1]) <= _NO_LEG_M for one in points)
+            poses[0 if still else -1 :] = [pose(frame, points[-1], points[-1], yaw)] * (len(poses) if still else 1)
         header: RosMessage = {"frame_id": frame}
-        return {"path": {"header": header, "poses": tuple(poses)}, "controller_id": self.binding.controller}
+        return {
+            "path": {"header": header, "poses": tuple(poses)},
+            "controller_id": self.binding.controller,
+            "goal_checker_id": self.binding.goal_checker,
+        }
 
     def limit_speed(self, speed_m_s: float) -> None:
         """Limit the robot's speed.
@@ -312,17 +361,9 @@ class RunningDrive:
         self._cancelled = True
 
     def _carry_out(self) -> GoalSteps:
-        self._navigation.limit_speed(self._goal.speed_m_s)
-        planning = self._navigation.plan(self._goal)
-        while True:
-            if self._cancelled:
-                return GoalEnd(state="cancelled")
-            try:
-                next(planning)
-            except StopIteration as planned:
-                plan: NavigationGoals = planned.value
-                break
-            yield
+        plan = yield from self._planned()
+        if plan is None:
+            return GoalEnd(state="cancelled")
         for number, (message, there) in enumerate(plan.goals):
             if number and (why := self._navigation.taken()) is not None:
                 return GoalEnd(state="failed", fault="interrupted", what=why)
@@ -330,7 +371,41 @@ class RunningDrive:
             ending = yield from self._reach(message, there, plan, after_m)
             if ending.state != "succeeded":
                 return ending
-        return GoalEnd(state="succeeded")
+        return self._faced()
+
+    def _planned(self) -> Generator[None, None, NavigationGoals | None]:
+        """Return the goals of the drive; None if it was cancelled before they were computed."""
+        self._navigation.limit_speed(self._goal.speed_m_s)
+        self._navigation.heading_deg = None
+        planning = self._navigation.plan(self._goal)
+        while not self._cancelled:
+            try:
+                next(planning)
+            except StopIteration as planned:
+                plan: NavigationGoals = planned.value
+                return plan
+            yield
+        return None
+
+    def _overtaken(self) -> str | None:
+        """Return why the current goal of Nav2 is to be replaced; None if it is not."""
+        return None
+
+    def _faced(self) -> GoalEnd:
+        """Return the end of a drive that has arrived: a failure if the robot says that its camera looks elsewhere."""
+        goal, heading = self._goal, self._navigation.heading_deg
+        if goal.faces is None or goal.heading_deg is None or heading is None:
+            return GoalEnd(state="succeeded")
+        off = apart_deg(heading, goal.heading_deg)
+        if off <= goal.faces.view_deg / 2.0:
+            return GoalEnd(state="succeeded")
+        what = f"{self._navigation.client_for(goal).name} says that it has arrived, but the robot faces {heading:.0f}°"
+        advice = "check the yaw tolerance of Nav2's goal checker"
+        return GoalEnd(
+            state="failed",
+            fault="failed",
+            what=f"{what}, {off:.0f}° off the {goal.heading_deg:.0f}° at which its camera sees the plant; {advice}",
+        )
 
     def _reach(self, message: RosMessage, there: Point, plan: NavigationGoals, after_m: float) -> GoalSteps:
         """Carry out one goal of Nav2, after which some metres of the drive are left.
@@ -359,8 +434,12 @@ class RunningDrive:
         limit = TimeLimit(binding.stuck_s, navigation.clock, navigation.steady)
         headway, nearest_m, stuck = Headway(limit, binding.most_recoveries), math.inf, ""
         client.start(message)
+        seen: RosMessage = {}
         while (outcome := client.step()) is None:
             nearest_m = min(nearest_m, _distance_m(navigation.position(), there))
+            if client.feedback is not seen:
+                seen = client.feedback
+                navigation.note_heading(seen)
             if self._cancelled:
                 client.cancel()
             elif not stuck and (why := headway.look(client.feedback)) is not None:
@@ -371,9 +450,10 @@ class RunningDrive:
                 near = after_m + _left_m(headway, nearest_m) <= NEAR_M
                 stuck = why if headway.recoveries or near else ""
                 client.cancel(why)
-            elif (why := self._wrong_place(plan)) is not None:
+            elif (why := self._wrong_place(plan) or self._overtaken()) is not None:
                 client.cancel(why)
             yield
+        navigation.note_heading(client.feedback)
         near = after_m + _left_m(headway, nearest_m) <= NEAR_M
         if (outcome.server and not self._cancelled) or outcome.moving:
             return (yield from self._without_server(outcome, client)), False
@@ -505,6 +585,8 @@ def _legs(path: Sequence[Point]) -> list[tuple[int, int]]:
 def _by_degrees(goal: DriveGoal) -> RosMessage:
     # Nav2 interprets the orientation in its map frame, whose axes point east and north here (REP 105).
     legs = [(goal.path_degrees[j], yaw_of(goal.path_m[i], goal.path_m[j])) for i, j in _legs(goal.path_m)]
+    if goal.heading_deg is not None:
+        legs[-1] = legs[-1][0], math.radians(90.0 - goal.heading_deg)
     poses = [geographic_pose(degrees, yaw) for degrees, yaw in legs]
     return {"number_of_loops": 0, "goal_index": 0, "gps_poses": tuple(poses)}
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 
 from fieldhand.execution.drivers.ros2.message_fields import value_at
 from fieldhand.execution.drivers.ros2.transport import Client, RosMessage, Transport
+from fieldhand.execution.robot_text import robot_text
 from fieldhand.robot.bindings import Ros2Bindings
 
 GET_STATE = "lifecycle_msgs/srv/GetState"
@@ -33,7 +34,7 @@ def state_problem(node: str, state: RosMessage) -> tuple[str, str] | None:
         node: Full name of the node.
         state: Response of ``lifecycle_msgs/srv/GetState``.
     """
-    number, label = value_at(state, "current_state.id"), value_at(state, "current_state.label")
+    number, label = value_at(state, "current_state.id"), robot_text(str(value_at(state, "current_state.label") or ""))
     if number == ACTIVE:
         return None
     what, advice = _STATES.get(number if isinstance(number, int) else 0, (f"{label or 'in an unknown state'}", ""))

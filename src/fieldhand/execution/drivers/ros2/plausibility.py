@@ -8,11 +8,21 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
+from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.ros2.event_topics import event_value
+from fieldhand.execution.drivers.ros2.images import image_of
 from fieldhand.execution.drivers.ros2.message_fields import number_at, value_at
 from fieldhand.execution.drivers.ros2.telemetry import MOST_PERCENT, fix_problem
 from fieldhand.execution.drivers.ros2.transport import RosMessage
-from fieldhand.robot.bindings import BatteryBinding, EventBinding, FieldBinding, PositionBinding, StopBinding
+from fieldhand.execution.robot_text import robot_text
+from fieldhand.robot.bindings import (
+    BatteryBinding,
+    EventBinding,
+    FieldBinding,
+    OdometerBinding,
+    PositionBinding,
+    StopBinding,
+)
 from fieldhand.robot.events import MonitoredEvent
 from fieldhand.robot.model import Quantity
 
@@ -66,6 +76,18 @@ def odometry(message: RosMessage) -> str:
     return f"{x:.2f}, {y:.2f} m"
 
 
+def odometer(binding: OdometerBinding) -> MessageCheck:
+    """Return a check of the metres driven in all."""
+
+    def check_message(message: RosMessage) -> str:
+        metres = _number(message, binding.value)
+        if metres < 0.0:
+            raise ImplausibleMessage(f"{metres:g} m is no distance", "correct unit, scale or path of the odometer")
+        return f"{metres:.1f} m"
+
+    return check_message
+
+
 def stop(binding: StopBinding) -> MessageCheck:
     """Return a check of emergency stop messages."""
 
@@ -73,7 +95,7 @@ def stop(binding: StopBinding) -> MessageCheck:
         value = value_at(message, binding.path)
         if not isinstance(value, bool):
             raise ImplausibleMessage(
-                f"{binding.path} is {value!r}, neither true nor false", "correct the path of the stop"
+                f"{binding.path} is {robot_text(repr(value))}, neither true nor false", "correct the path of the stop"
             )
         if value == binding.stopped:
             raise ImplausibleMessage("the robot is stopped", "release the emergency stop")
@@ -103,14 +125,28 @@ def reading(binding: FieldBinding, quantity: Quantity) -> MessageCheck:
     return check_message
 
 
+def image(name: str) -> MessageCheck:
+    """Return a check of images."""
+
+    def check_message(message: RosMessage) -> str:
+        try:
+            found = image_of(message, name, "the topic")
+        except Ros2Error as error:
+            raise ImplausibleMessage(error.what, error.advice or "publish another kind of image") from None
+        return f"{found.width} x {found.height} pixels, {found.encoding}"
+
+    return check_message
+
+
 def event(binding: EventBinding, known: MonitoredEvent) -> MessageCheck:
     """Return a check of the messages of an event."""
 
     def check_message(message: RosMessage) -> str:
         value = event_value(message, binding)
         if value is None:
+            found = robot_text(repr(value_at(message, binding.value.path)))
             raise ImplausibleMessage(
-                f"{binding.value.path} is {value_at(message, binding.value.path)!r}, neither true, false nor a number",
+                f"{binding.value.path} is {found}, neither true, false nor a number",
                 "correct the path of the event",
             )
         if known.unit:
@@ -124,7 +160,7 @@ def _number(message: RosMessage, binding: FieldBinding) -> float:
     number = number_at(message, binding)
     if number is None or not math.isfinite(number):
         raise ImplausibleMessage(
-            f"{binding.path} is {value_at(message, binding.path)!r}, no number",
+            f"{binding.path} is {robot_text(repr(value_at(message, binding.path)))}, no number",
             "check whether the robot measures it, or take another field",
         )
     return number

@@ -30,7 +30,7 @@ from fieldhand.execution.drivers.ros2.node_states import GET_STATE
 from fieldhand.execution.drivers.ros2.plausibility import MessageCheck
 from fieldhand.execution.drivers.ros2.release import heard_releases
 from fieldhand.execution.drivers.ros2.telemetry import fix_problem
-from fieldhand.execution.drivers.ros2.transport import QosProfile, Rmw, RosMessage, Transport
+from fieldhand.execution.drivers.ros2.transport import IMAGE_TYPES, QosProfile, Rmw, RosMessage, Transport
 from fieldhand.robot.bindings import (
     CallBinding,
     Distro,
@@ -212,6 +212,9 @@ class _Bindings:
         yield self._topic("battery", ros2.battery.topic, plausibility.battery(ros2.battery), [(charge.path, _NUMBERS)])
         if ros2.odometry is not None:
             yield self._topic("odometry", ros2.odometry, plausibility.odometry)
+        if ros2.odometer is not None:
+            counter, value = ros2.odometer, ros2.odometer.value
+            yield self._topic("odometer", counter.topic, plausibility.odometer(counter), [(value.path, _NUMBERS)])
         if ros2.stop is not None:
             yield self._topic("stop", ros2.stop.topic, plausibility.stop(ros2.stop), [(ros2.stop.path, ("bool",))])
         for name, event in ros2.events.items():
@@ -237,6 +240,13 @@ class _Bindings:
                     ),
                     plausibility.reading(bound_topic.value, self._profile.quantity[quantity]),
                     [(bound_topic.value.path, _NUMBERS)],
+                    rare=action.call is not None,
+                )
+            for label, image in action.images.items():
+                yield self._topic(
+                    f"{part}: image {label}",
+                    TopicBinding(topic=image.topic, type=image.type, stale_s=image.within_s, reliable=image.reliable),
+                    plausibility.image(label),
                     rare=action.call is not None,
                 )
 
@@ -349,6 +359,14 @@ class _Bindings:
         paths = [(binding.path, _NUMBERS) for binding in call.readings.values()]
         paths += [(path, kinds) for path, kinds in ((call.success, ("bool",)), (call.message, ("string",))) if path]
         yield from self._wrong(call.type, f"{call.type}_{answered}", paths)
+        for path in call.images.values():
+            try:
+                kind = self._interfaces.field_at(f"{call.type}_{answered}", path).base
+            except Ros2Error as error:
+                yield str(error)
+                continue
+            if kind not in IMAGE_TYPES:
+                yield f"{path} of {call.type} is {kind}, not an image ({' or '.join(IMAGE_TYPES)})"
 
     def _wrong(self, type_name: str, message: str, paths: _Paths) -> Iterator[str]:
         """Yield an unknown type, or the paths that do not lead to a value of an allowed type."""

@@ -151,6 +151,11 @@ class Startup:
                 why = topic_problem(self._transport, self._interfaces, topic, message.type, qos)
                 yield _line(f"{quantity} of {name}", topic, why)
 
+        for label, image in bound.binding.images.items():
+            topic, qos = self._captures.whole_name(image.topic), QosProfile(reliable=image.reliable)
+            if (why := topic_problem(self._transport, self._interfaces, topic, image.type, qos)) is not None:
+                yield _line(f"image {label} of {name}", topic, why)
+
     def _no_action(self, what: str, client: ActionClient) -> Iterator[_Missing]:
         why = action_problem(self._transport, self._interfaces, client.name, client.type)
         if why is not None or client.servers() == 0:

@@ -14,8 +14,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from fieldhand.execution.drivers.protocol import Position
+from fieldhand.execution.drivers.ros2.map_frame import yaw_in
 from fieldhand.execution.drivers.ros2.message_fields import number_at, seconds_at, value_at
 from fieldhand.execution.drivers.ros2.transport import QosProfile, RosMessage, Subscription, Transport
+from fieldhand.execution.robot_text import robot_text
 from fieldhand.robot.bindings import FieldBinding, PositionBinding, Ros2Bindings, TopicBinding
 from fieldhand.site.projection import Projection
 
@@ -191,13 +193,19 @@ class Telemetry:
         self._fix = topic("the position", bindings.position.fix)
         self._battery = topic("the battery", bindings.battery.topic)
         self._odometry = topic("the odometry", bindings.odometry) if bindings.odometry else None
+        self._counter = topic("the odometer", bindings.odometer.topic) if bindings.odometer else None
+        self._counter_value = bindings.odometer.value if bindings.odometer else None
         self._stop = topic("the emergency stop", bindings.stop.topic) if bindings.stop else None
         slack_m = max(_JUMP_M, _NOISE * bindings.position.most_sigma_m)
         self._jumps = _JumpDetector(slack_m, speed_m_s, clock, steady)
         self._odometer = _Odometer(_ODOMETRY_STEP_M if self._odometry else _FIX_STEP_M, speed_m_s, clock)
+        self._frame = bindings.navigation.frame
+        #: Yaw of the robot in the map in radians; None if its odometry is not in that frame.
+        self.yaw: float | None = None
         self._position: Position | None = None
         self._stamp_s: float | None = None
         self._charge: float | None = None
+        self._counted: float | None = None
         self._stopped: str | None = None
 
     @property
@@ -226,9 +234,15 @@ class Telemetry:
         return self._charge
 
     @property
+    def odometer_m(self) -> float | None:
+        """Last reading of the odometer, which counts all metres; None if there is none, or it is silent."""
+        silent = self._counter is None or self._counter.silent(self._steady()) is not None
+        return None if silent else self._counted
+
+    @property
     def all(self) -> tuple[TelemetryTopic, ...]:
         """All subscribed topics."""
-        return tuple(s for s in (self._fix, self._battery, self._odometry, self._stop) if s is not None)
+        return tuple(s for s in (self._fix, self._battery, self._odometry, self._counter, self._stop) if s is not None)
 
     def listen(self) -> None:
         """Process the received messages."""
@@ -239,6 +253,8 @@ class Telemetry:
             self._receive_battery(message, now)
         for message in self._odometry.take() if self._odometry else ():
             self._receive_odometry(message, now)
+        for message in self._counter.take() if self._counter else ():
+            self._receive_counter(message, now)
         for message in self._stop.take() if self._stop else ():
             self._receive_stop(message, now)
 
@@ -298,6 +314,17 @@ class Telemetry:
         if x is not None and y is not None:
             self._odometry.at_s = now
             self._odometer.add((x, y), message)
+            if value_at(message, "header.frame_id") == self._frame:
+                self.yaw = yaw_in(message, "pose.pose.orientation")
+
+    def _receive_counter(self, message: RosMessage, now: float) -> None:
+        assert self._counter is not None  # noqa: S101  asked for by who has one
+        assert self._counter_value is not None  # noqa: S101
+        metres = number_at(message, self._counter_value)
+        if metres is None:
+            self._counter.problem = f"it has no number at {self._counter_value.path}"
+        else:
+            self._counted, self._counter.at_s = metres, now
 
     def _receive_stop(self, message: RosMessage, now: float) -> None:
         assert self._stop is not None  # noqa: S101  asked for by who has one
@@ -305,7 +332,7 @@ class Telemetry:
         value = value_at(message, self._stop_binding.path)
         if not isinstance(value, bool):
             # An unreadable emergency stop must not pass for one that is not pressed.
-            self._stop.problem = f"{self._stop_binding.path} is {value!r}, neither true nor false"
+            self._stop.problem = f"{self._stop_binding.path} is {robot_text(repr(value))}, neither true nor false"
             return
         self._stop.at_s = now
         if value == self._stop_binding.stopped:

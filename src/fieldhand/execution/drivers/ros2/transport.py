@@ -24,6 +24,16 @@ RosMessage = Mapping[str, object]
 #: Size limit in bytes of a received message. No mission needs larger ones, and decoded they grow a hundredfold.
 MOST_BYTES = 4 * 1024 * 1024
 
+#: Types of images, and size limit of a message of them: decoded, it takes eight times as much for a moment.
+IMAGE_TYPES = ("sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage")
+MOST_IMAGE_BYTES = 16 * 1024 * 1024
+
+
+def most_bytes(type_name: str) -> int:
+    """Return the size limit in bytes of a received message of a type."""
+    return MOST_IMAGE_BYTES if type_name in IMAGE_TYPES else MOST_BYTES
+
+
 #: Middleware at the other end, if it can be identified.
 Rmw = Literal["cyclonedds", "fastrtps", "connext", "zenoh", "unknown"]
 

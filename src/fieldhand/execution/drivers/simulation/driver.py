@@ -23,10 +23,12 @@ from fieldhand.execution.drivers.protocol import (
 from fieldhand.execution.drivers.simulation.ground_truth import GroundTruth, Hindrance, Point
 from fieldhand.execution.drivers.simulation.state import SimulationState
 from fieldhand.execution.drivers.simulation.world import World
+from fieldhand.forecast.headings import turn_s
 from fieldhand.forecast.visit_order import drives_for, start_place
 from fieldhand.language import message
 from fieldhand.robot.charging import DOCK, UNDOCK
 from fieldhand.robot.model import RobotProfile
+from fieldhand.site.bearings import apart_deg, first_heading, last_heading
 from fieldhand.site.model import Place, Site
 from fieldhand.site.working.stretch import total_m
 
@@ -55,6 +57,8 @@ class _Course:
         on: Those parts of the whole path, as metres from its begin.
         strays_m: Greatest distance in metres to the right of the path, in its middle.
         meets: Hindrance that ends it.
+        turns_s: Seconds before and after the path in which the robot turns on the spot.
+        heading_deg: Heading at its end, in degrees clockwise from north; None for that of the path there.
         docks: Connected to the charger after it succeeded; None for no change.
     """
 
@@ -71,33 +75,56 @@ class _Course:
     fault: GoalFault = "none"
     strays_m: float = 0.0
     meets: Hindrance | None = None
+    turns_s: tuple[float, float] = (0.0, 0.0)
+    heading_deg: float | None = None
     docks: bool | None = None
 
     def cut(self, part: float) -> _Course:
-        """Return the course, failed after this fraction of it."""
+        """Return the course, failed after this fraction of its path, or of an action."""
+        before_s, after_s = self.turns_s
         return replace(
             self,
-            lasts_s=part * self.lasts_s,
+            lasts_s=(before_s if part > 0.0 else 0.0) + part * (self.lasts_s - before_s - after_s),
             outcome="failed",
             metres=part * self.metres,
             reach=part * self.reach,
             action_j=self.action_j if self.on else part * self.action_j,
             readings={},
             meets=None,
+            turns_s=(before_s if part > 0.0 else 0.0, 0.0),
+            heading_deg=None,
             docks=None,
         )
+
+    def moved(self, done: float) -> float:
+        """Return the fraction of the path, or of an action, that is done at a fraction of the time."""
+        if self.turns_s == (0.0, 0.0):
+            return done
+        before_s, after_s = self.turns_s
+        moves_s = self.lasts_s - before_s - after_s
+        if done >= 1.0 or moves_s <= 0.0:
+            return 1.0 if done * self.lasts_s >= before_s else 0.0
+        return min(1.0, max(0.0, (done * self.lasts_s - before_s) / moves_s))
+
+    def facing(self, done: float) -> float | None:
+        """Return the heading at a fraction of the time; None if the path has no length."""
+        if done >= 1.0 and self.heading_deg is not None:
+            return self.heading_deg
+        here = _along(self.path, self.reach * self.moved(done))
+        k = next((k for k, leg in enumerate(itertools.pairwise(self.path)) if _is_between(here, *leg)), -2)
+        return last_heading(self.path[: k + 2] if k >= 0 else self.path)
 
     def joules(self, done: float) -> float:
         """Return the energy of the action up to a fraction of the course."""
         if not self.on:
-            return done * self.action_j
-        at_m = done * self.reach * sum(math.dist(a, b) for a, b in itertools.pairwise(self.path))
+            return self.moved(done) * self.action_j
+        at_m = self.moved(done) * self.reach * sum(math.dist(a, b) for a, b in itertools.pairwise(self.path))
         worked_m = sum(max(0.0, min(end, at_m) - begin) for begin, end in self.on)
         return self.action_j * min(1.0, worked_m / total_m(self.on))
 
     def at(self, done: float) -> Point:
         """Return the position of the robot after a fraction of the course."""
-        part = self.reach * done
+        part = self.reach * self.moved(done)
         x, y = _along(self.path, part)
         away_m = self.strays_m * max(0.0, 1.0 - abs(part - 0.5) / _STRAYS)
         if away_m == 0.0:
@@ -125,12 +152,24 @@ class SimulatedDriver:
         world: Sensor readings and faults.
         clock: Mission clock; only the mission advances it.
         rng: Generator for leg costs and for readings that the world leaves open.
+        yaw_tolerance_deg: Degrees short of the heading of a drive at which it stops turning.
 
     Raises:
         WorldError: The world does not fit the site or the robot.
     """
 
-    def __init__(self, site: Site, robot: RobotProfile, world: World, clock: Clock, rng: np.random.Generator) -> None:
+    def __init__(
+        self,
+        site: Site,
+        robot: RobotProfile,
+        world: World,
+        clock: Clock,
+        rng: np.random.Generator,
+        *,
+        yaw_tolerance_deg: float = 0.0,
+    ) -> None:
+        self._yaw_tolerance_deg = yaw_tolerance_deg
+        self._heading_deg: float | None = None
         self._site = site
         self._robot = robot
         self._clock = clock
@@ -164,8 +203,15 @@ class SimulatedDriver:
         cost = goal.length_m * (alpha + self._rng.exponential(1.0 - alpha) if alpha < 1.0 else 1.0)
         pace = cost / goal.speed_m_s / goal.length_m if goal.length_m > 0 else 0.0  # seconds per metre of the path
         now_s = self._clock.now() - self._begun_s
+        turns_s, heading = self._turns(goal)
         course = whole = _Course(
-            start_s=self._clock.now(), lasts_s=cost / goal.speed_m_s, outcome="succeeded", metres=cost, path=goal.path_m
+            start_s=self._clock.now(),
+            lasts_s=cost / goal.speed_m_s + sum(turns_s),
+            outcome="succeeded",
+            metres=cost,
+            path=goal.path_m,
+            turns_s=turns_s,
+            heading_deg=heading,
         )
         if goal.work is not None and goal.work.action:
             course = whole = self._with_implement(course, goal, goal.work)
@@ -177,6 +223,7 @@ class SimulatedDriver:
             part, what = failing
             course = replace(whole.cut(part), what=what, fault="implement") if part <= course.reach else course
         met: list[tuple[Hindrance, GoalFault]] = []
+        now_s += turns_s[0]
         if (hindrance := self._truth.obstacle(goal.path_m, lambda metres: now_s + pace * metres)) is not None:
             near = hindrance.recovers and goal.length_m - hindrance.at_m <= NEAR_M
             met.append((hindrance, "occupied" if near else "blocked"))
@@ -188,6 +235,27 @@ class SimulatedDriver:
             if part <= course.reach:
                 course = replace(whole.cut(part), what=hindrance.what, fault=fault, meets=hindrance)
         self._set_out(course)
+
+    def _turns(self, goal: DriveGoal) -> tuple[tuple[float, float], float | None]:
+        """Return the seconds of turning on the spot before and after a drive, and the heading at its end.
+
+        A robot that does not turn on the spot ends along its path, or as it is wanted within a right angle of it.
+        """
+        first, last = first_heading(goal.path_m), last_heading(goal.path_m)
+        here = self._heading_deg if last is None else last
+        wanted = here if goal.heading_deg is None else goal.heading_deg
+        if (
+            self._robot.turn_deg_s is None
+            and here is not None
+            and wanted is not None
+            and apart_deg(here, wanted) > 90.0
+        ):
+            wanted = here
+        seconds = turn_s(self._robot, self._heading_deg, first), turn_s(self._robot, here, wanted)
+        if wanted is not None and here is not None:
+            left = min(apart_deg(here, wanted), self._yaw_tolerance_deg)
+            wanted = (wanted - math.copysign(left, (wanted - here + 180.0) % 360.0 - 180.0)) % 360.0
+        return seconds, wanted
 
     def _with_implement(self, course: _Course, goal: DriveGoal, work: StretchWork) -> _Course:
         """Return a course with the time and energy of an implement."""
@@ -255,7 +323,7 @@ class SimulatedDriver:
         if stopped is not None and done < 1.0:
             return self._finish(course, "cancelled", done, stopped)
         if done < 1.0:
-            return Progress(state="running", metres=done * course.metres, seconds=done * course.lasts_s)
+            return Progress(state="running", metres=course.moved(done) * course.metres, seconds=done * course.lasts_s)
         if course.meets is not None:
             self._truth.met(course.meets)
             self._recovers = course.meets.recovers
@@ -288,7 +356,11 @@ class SimulatedDriver:
     def position(self) -> Position:
         x, y = self._at()
         ((lat, lon),) = self._site.projection.lat_lon([(x, y)])
-        return Position(x=x, y=y, lat=lat, lon=lon)
+        course, heading = self._course, self._heading_deg
+        if course is not None and course.path:
+            facing = course.facing(course.done_at(self._clock.now()))
+            heading = heading if facing is None else facing
+        return Position(x=x, y=y, lat=lat, lon=lon, heading_deg=heading)
 
     def charge_percent(self) -> float:
         left, step = self._left(), self._meter_step
@@ -335,6 +407,7 @@ class SimulatedDriver:
             lost=tuple(self._lost),
             met=self._truth.events.met,
             docked=self._docked,
+            heading_deg=here.heading_deg,
         )
 
     def restore(self, state: SimulationState) -> None:
@@ -350,7 +423,7 @@ class SimulatedDriver:
         self._begun_s = self._clock.now() - state.seconds
         self._charge, self._charged_s = state.charge_percent, self._clock.now()
         self._xy, self._course, self._result = (state.x, state.y), None, Progress(state="idle")
-        self._lost, self._docked = list(state.lost), state.docked
+        self._lost, self._docked, self._heading_deg = list(state.lost), state.docked, state.heading_deg
         self._truth.restore(state.values_seed, state.captures, state.struck)
         self._truth.events.restore(state.met)
 
@@ -379,10 +452,10 @@ class SimulatedDriver:
         if (why := self.lost()) is not None:
             course = replace(course.cut(0.0), what=why, fault="lost")
         elif lost_s:
-            part = max(0.0, min(lost_s)) / course.lasts_s
+            part = course.moved(max(0.0, min(lost_s)) / course.lasts_s)
             course = replace(course.cut(part), what=message("no position", context="log"), fault="lost")
         if self._used(course, 1.0) > self._charge:
-            part = self._lasting(course)
+            part = course.moved(self._lasting(course))
             course = replace(course.cut(part), what=message("the battery is empty", context="log"), fault="empty")
         self._course = course
 
@@ -399,12 +472,14 @@ class SimulatedDriver:
         self._charged_s = course.start_s + done * course.lasts_s
         if course.path:
             self._xy = course.at(done)
+            facing = course.facing(done)
+            self._heading_deg = self._heading_deg if facing is None else facing
         if course.docks is not None and state == "succeeded":
             self._docked = course.docks
         self._course = None
         self._result = Progress(
             state=state,
-            metres=done * course.metres,
+            metres=course.moved(done) * course.metres,
             seconds=done * course.lasts_s,
             readings=course.readings if state == "succeeded" else {},
             what=what,
@@ -414,12 +489,17 @@ class SimulatedDriver:
 
     def _used(self, course: _Course, done: float) -> float:
         """Return the battery consumption in percent of a fraction of a course."""
-        used = self._robot.percent(done * course.metres, done * course.lasts_s, course.joules(done))
+        used = self._robot.percent(course.moved(done) * course.metres, done * course.lasts_s, course.joules(done))
         return self._drained(used, course.start_s, course.start_s + done * course.lasts_s)
 
     def _drained(self, percent: float, from_s: float, to_s: float) -> float:
         """Return the battery's loss between two times for which its model gives ``percent``."""
         return percent * self._truth.drain(from_s - self._begun_s, to_s - self._begun_s)
+
+
+def _is_between(point: Point, a: Point, b: Point) -> bool:
+    """Return True if a point of a path lies on this leg of it."""
+    return math.dist(a, point) + math.dist(point, b) <= math.dist(a, b) + EPSILON_S and math.dist(a, b) > 0.0
 
 
 def _along(path: tuple[Point, ...], part: float) -> Point:

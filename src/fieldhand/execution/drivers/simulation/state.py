@@ -21,6 +21,7 @@ class SimulationState:
         lost: Until when, in seconds, its position is lost, and why.
         met: When, in seconds, the robot came to events of its world that last for a while: (number, time).
         docked: True if it is connected to its charger.
+        heading_deg: Heading in degrees clockwise from north; None if it has not moved yet.
     """
 
     seconds: float
@@ -34,3 +35,4 @@ class SimulationState:
     lost: tuple[tuple[float, str], ...] = ()
     met: tuple[tuple[int, float], ...] = ()
     docked: bool = False
+    heading_deg: float | None = None

@@ -6,6 +6,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands import (
     adjuncts,
     aggregates,
+    aisles,
     asked,
     asked_places,
     at_edges,
@@ -16,6 +17,7 @@ from fieldhand.planning.grammar.commands import (
     counting,
     driving,
     earlier,
+    edge_sides,
     energy,
     events,
     exclusions,
@@ -26,8 +28,10 @@ from fieldhand.planning.grammar.commands import (
     limits,
     pace,
     parameters,
+    precision,
     reported,
     requests,
+    row_parts,
     sampling,
     sides,
     slow,
@@ -46,9 +50,9 @@ from fieldhand.planning.grammar.commands import (
 GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
-    exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, earlier,
-    work_wanted, laps, headings, asked, left_standing, to_and_fro, work_sequel, at_edges, bringing,
-    reported, further_work, counting, which_of_two, asked_places,
+    exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, aisles, earlier,
+    work_wanted, laps, headings, edge_sides, row_parts, asked, left_standing, to_and_fro, work_sequel, at_edges,
+    bringing, reported, further_work, counting, which_of_two, asked_places, precision,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

@@ -53,13 +53,7 @@ def _so_often(command: CaptureCommand, times: int) -> CaptureCommand | None:
 
 
 def _again(command: CaptureCommand, _: None) -> CaptureCommand | None:
-    place = command.place
-    known = (
-        place is None
-        or place.shape in ("here", "one", "those")
-        or any(one.uses_records for one in place.selector.walk())
-    )
-    return command if known and command.relation in ("at", "of", "along") else None
+    return command if command.relation in ("at", "of", "along") else None
 
 
 def _each(command: CaptureCommand, things: tuple[Thing, ...] | int | None) -> CaptureCommand | None:

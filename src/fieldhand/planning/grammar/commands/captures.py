@@ -245,12 +245,15 @@ def act_on_those(verb: Lex, used: int, word: Lex | None = None, several: Lex | N
     return _act_on(verb, PlaceMeaning(s.Here(), "those" if of_several else "here"), used)
 
 
-@construction("capture: verb=MEASURE place=place", "capture: verb=MEASURE AT place=place", cost=4.0)
-def check_place(verb: Lex, place: PlaceMeaning, used: int) -> CaptureCommand | None:
-    """Compose "check tree 4", which does not say what is measured there."""
+@construction(
+    "capture: verb=MEASURE place=place", "capture: verb=MEASURE AT place=place",
+    "capture: verb=MEASURE place=place again=AGAIN", "capture: verb=MEASURE AT place=place again=AGAIN", cost=4.0,
+)  # fmt: skip
+def check_place(verb: Lex, place: PlaceMeaning, used: int, again: Lex | None = None) -> CaptureCommand | None:
+    """Compose "check tree 4", which does not say what is measured there; "again" may not mean a picture."""
     if place.shape not in ("one", "several", "area"):
         return None
-    thing = Thing(UNSAID_THING, plural=place.shape == "area", verb=_kind_of(verb))
+    thing = Thing(UNSAID_THING, plural=place.shape == "area", verb=_kind_of(verb) if again is None else "")
     return CaptureCommand((thing,), place, used)
 
 

@@ -15,6 +15,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.parameters import with_parameter
+from fieldhand.planning.grammar.commands.things import named_capture, soil_test
 from fieldhand.planning.grammar.meaning import LAST_THING, CaptureCommand, ParameterValue, PlaceMeaning, Thing
 from fieldhand.planning.grammar.places.vague import as_many_of_best
 from fieldhand.planning.grammar.words import Lex
@@ -179,8 +180,9 @@ def go_part(place: PlaceMeaning) -> Clause | None:
 
 @construction("part: GO ALONG place=place", cost=0.3)
 def go_along_part(place: PlaceMeaning) -> Clause | None:
-    """Compose "drive along row 4" before "with a picture every 10 m"."""
-    return _part("k", place=place, relation="along") if place.shape == "area" and place.per is None else None
+    """Compose "drive along row 4" before "with a picture every 10 m", and "go along the leeks"."""
+    whole = place.shape == "area" or (place.shape == "several" and place.count is None)
+    return _part("k", place=place, relation="along") if whole and place.per is None else None
 
 
 @construction("part: [relation] DET GROUND", cost=0.8)
@@ -193,6 +195,12 @@ def ground_part() -> Clause:
 def use_part() -> Clause:
     """Compose "use"."""
     return _part("u")
+
+
+@construction("part: HANDLES things=things [PUTIN]", cost=0.5)
+def handled_part(things: tuple[Thing, ...]) -> Clause:
+    """Compose "stick the moisture probe into the soil"."""
+    return Clause("ut", things=things)
 
 
 @construction("part: ASMANY", cost=0.0)
@@ -211,6 +219,18 @@ def things_part(things: tuple[Thing, ...]) -> Clause:
 def with_part(things: tuple[Thing, ...]) -> Clause:
     """Compose "with the thermal camera"."""
     return _part("w", things=things)
+
+
+@construction(
+    "part: WITH word=DET noun=NOUN [INSTRUMENT]", "part: WITH word=DET noun=SOILTEST", cost=0.1, given=("robot",)
+)
+def with_instrument(word: Lex, noun: Lex, robot: RobotProfile) -> list[Clause] | None:
+    """Compose "with the moisture probe", of as many readings as there are places."""
+    named = named_capture(noun) if isinstance(noun.value, Naming) else None
+    things = soil_test(noun, robot) if named is None else [named]
+    if "definite" not in word.features or noun.plural or not things:
+        return None
+    return [_part("w", things=(replace(one, plural=True),)) for one in things]
 
 
 @construction("part: FOR things=things", cost=0.0)
@@ -440,8 +460,11 @@ def _topic(clause: Clause, used: int) -> CaptureCommand | None:
         return _bare(clause, used)
     if clause.order == "th":
         return CaptureCommand(things, place, used, relation="plain") if place.shape in ("here", "those") else None
-    if clause.order in ("kw", "kt"):
-        return CaptureCommand(things, place, used, relation="along") if clause.adjuncts else None
+    if clause.order in ("kw", "kt") and clause.adjuncts:
+        return CaptureCommand(things, place, used, relation="along") if place.shape == "area" else None
+    if clause.order in ("kw", "kt"):  # "go along row 3 with the thermal camera"
+        plain = clause.order == "kw" and all(one.count is None and one.plural for one in things)
+        return CaptureCommand(things, place, used) if plain else None
     if clause.order == "wp":
         return CaptureCommand(things, place, used) if place.each else None  # "with a picture at every tree"
     if clause.order in ("tp", "tsp"):

@@ -21,10 +21,11 @@ from fieldhand.planning.grammar.meaning import (
 )
 from fieldhand.planning.grammar.places.compass import AWAY_FROM
 from fieldhand.planning.grammar.places.groups import both
+from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.places.numbers import named_trees
 from fieldhand.planning.grammar.places.sampling import bare_points, is_keep_out
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import as_some, is_row_of_place
+from fieldhand.planning.selections import as_some, is_by_attribute, is_row_of_place
 from fieldhand.site.model import Site
 from fieldhand.terms import Side
 
@@ -225,7 +226,8 @@ def from_best_to_worst(first: tuple[str, bool], last: tuple[str, bool]) -> tuple
     return ("attribute", first[0], not first[1])
 
 
-@construction("ordered: [DET] rank=ranking FIRSTONE", "ordered: STARTING [DET] rank=ranking [ONE]", cost=0.1)
+@construction("ordered: [DET] rank=ranking [TREE] FIRSTONE", "ordered: STARTING [DET] rank=ranking [ONE]", cost=0.1)
+@construction("ordered: STARTING [DET] rank=ranking TREE", cost=0.1)
 def best_first(rank: tuple[str, bool]) -> tuple[str, str, bool] | None:
     """Compose "oldest first"."""
     return ("attribute", rank[0], not rank[1]) if rank[0] else None
@@ -348,6 +350,18 @@ def after_the_last(place: PlaceMeaning, word: Lex, used: int) -> Lead | None:
     """Compose "after the last one, ..." of what is done there as well."""
     last = place.like is not None and place.like.kind == "nth" and place.like.number == -1
     return Lead(place, used) if last and "after_doing" in word.features else None
+
+
+@construction(
+    "lead: [ONRECORD] [COMMA] MAPLISTS [DET] inner=nominal", "lead: MAPLISTS [DET] inner=nominal [COMMA] ONRECORD",
+    "lead: [ONRECORD] [COMMA] MAPLISTS n=count inner=nominal", cost=0.3, given=("site",),
+)  # fmt: skip
+def listed_on_the_map(inner: Nominal, used: int, site: Site, n: int | None = None) -> Lead | None:
+    """Compose "our map lists some plants with a moisture over 40", all of which are meant."""
+    found = ids_of(inner.selector, site) if is_by_attribute(inner.selector) else None
+    if not inner.plural or inner.single or inner.pronoun or not found or n not in (None, len(found)):
+        return None
+    return Lead(PlaceMeaning(inner.selector, "several", each=True), used, relation="topic")
 
 
 @construction("lead: TOPIC place=place", "lead: place=place TOPIC", cost=0.3)

@@ -10,10 +10,14 @@ from fieldhand.planning.grammar.meaning import (
     AllTests,
     Amount,
     CaptureCommand,
+    Command,
     Connective,
     DriveCommand,
+    Home,
+    Lead,
     LimitClause,
     LinkedCommand,
+    PlaceMeaning,
     RechargeClause,
     Said,
     StopCommand,
@@ -26,6 +30,8 @@ GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
 _FULL = 100.0
+#: Shapes of places that were spoken of before.
+_SPOKEN_OF = ("here", "those")
 
 
 @construction("charge_it: RECHARGE", "charge_it: RECHARGE [DET] BATTERY", cost=0.1)
@@ -257,23 +263,84 @@ def battery_falls(level: Amount) -> Test | None:
     return Test(BATTERY_TEST, "le", level.number, "percent") if level.unit == "percent" else None
 
 
+@construction("straight_way: [GO] STRAIGHTTO place=place", cost=0.0)
+def straight_way(place: PlaceMeaning, used: int) -> DriveCommand:
+    """Compose "go straight to the charger", after which nothing is done."""
+    return DriveCommand(place, used)
+
+
 @construction(
     "given_up: in_case below=low_battery [COMMA] [then] STOP [COMMA] [AND] [then] way=drive",
     "given_up: STOP AND way=drive in_case below=low_battery",
     "given_up: way=drive AND STOP in_case below=low_battery",
+    "given_up: IF below=low_battery [COMMA] [then] [STOP] [COMMA] [AND] way=straight_way",
+    "given_up: [STOP] [AND] way=straight_way IF below=low_battery",
     cost=0.1,
 )
 def given_up(below: Amount, way: DriveCommand, used: int) -> tuple[When, DriveCommand] | None:
     """Compose "if the battery falls below 40 %, leave the rest and drive to the charger"."""
-    low = Test(BATTERY_TEST, "le", below.number, "percent")
-    return (When(AllTests((low,)), used & ~way.used), way) if way.place.shape == "one" else None
+    return (_low(below, used & ~way.used), way) if way.place.shape == "one" else None
+
+
+def _low(below: Amount, used: int) -> When:
+    return When(AllTests((Test(BATTERY_TEST, "le", below.number, "percent"),)), used)
 
 
 @construction("said: before=said joint=joint case=given_up", cost=0.1)
 def given_up_below(before: Said, joint: Connective, case: tuple[When, DriveCommand]) -> Said | None:
     """Compose "... If the battery falls below 40 %, leave the rest and drive to the charger.", of captures."""
-    if not isinstance(before.clauses[-1].command, CaptureCommand):
-        return None
     when, way = case
+    return _given_up_after(before, LinkedCommand(joint, when), way)
+
+
+@construction(
+    "said: before=said [COMMA] [OR] SOONER in_case below=low_battery",
+    "said: before=said [COMMA] [BUT] SOONER in_case below=low_battery",
+    "said: before=said [COMMA] [OR] in_case below=low_battery [COMMA] SOONER",
+    cost=0.2,
+)
+def sooner_if_low(before: Said, below: Amount, used: int) -> Said | None:
+    """Compose "(..., then back to the charger,) or straight there if the battery drops below 40 %"."""
+    own, last = used, before.clauses[-1].command
+    for clause in before.clauses:
+        own &= ~(clause.command.used | (0 if clause.before is None else clause.before.used))
+    if isinstance(last, Home):
+        return Said((*before.clauses, LinkedCommand(None, LimitClause(below, True, own))))
+    if not isinstance(last, DriveCommand):
+        return None
+    return _given_up_after(before, LinkedCommand(None, _low(below, own)), replace(last, used=0))
+
+
+def _given_up_after(before: Said, when: LinkedCommand, way: DriveCommand) -> Said | None:
+    """Return captures after each of which the robot drives to a place for good if a test of the battery passes.
+
+    A drive to that place behind them is the end of the mission in any case.
+    """
+    *clauses, last = before.clauses
+    goes = isinstance(last.command, DriveCommand) and last.command.place.shape == "one"
+    final: tuple[LinkedCommand, ...] = ()
+    if goes and isinstance(last.command, DriveCommand) and clauses:
+        same = last.command.place.selector == way.place.selector
+        if not same or last.command.along:
+            return None
+        final = (LinkedCommand(replace(last.before or Connective(False, True, 0), full=True), last.command),)
+    else:
+        clauses = list(before.clauses)
+    if not all(_has_place(clause.command) for clause in clauses) or isinstance(clauses[0].command, Lead):
+        return None
     ends = LinkedCommand(Connective(False, False, 0, both=True), StopCommand(0, stays=True))
-    return Said((*before.clauses, LinkedCommand(joint, when), LinkedCommand(None, way), ends))
+    found: list[LinkedCommand] = []
+    for number, clause in enumerate(clauses):
+        is_last = number == len(clauses) - 1
+        tested = when if is_last else LinkedCommand(Connective(True, False, 0), replace(when.command, used=0))
+        joined = replace(clause.before or Connective(True, False, 0), full=True) if number else clause.before
+        begun = replace(clause, before=joined)
+        found += [begun, tested, LinkedCommand(None, way if is_last else replace(way, used=0)), ends]
+    return Said((*found, *final))
+
+
+def _has_place(command: Command) -> bool:
+    """Return True for captures at places of their own, and for a further place of the captures before it."""
+    if isinstance(command, Lead):
+        return command.relation not in ("topic", "")
+    return isinstance(command, CaptureCommand) and command.place is not None and command.place.shape not in _SPOKEN_OF

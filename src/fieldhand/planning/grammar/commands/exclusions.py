@@ -40,12 +40,14 @@ class Excluded:
         positions: Ranges of trees of that row.
         actions: Actions that the phrase forbids there; empty if it forbids any.
         used: Tokens of the phrase.
+        done: True if the phrase only tells that they were done, and others say which are left ("the remaining ones").
     """
 
     place: PlaceMeaning | None = None
     positions: tuple[tuple[int, int], ...] = ()
     actions: tuple[str, ...] = ()
     used: int = 0
+    done: bool = False
 
 
 @construction("kept_out: place=place", cost=0.0)
@@ -136,6 +138,12 @@ def excluded(out: Excluded, used: int, verb: Lex | None = None, word: Lex | None
     return replace(out, used=used, actions=naming.actions)
 
 
+@construction("excluded: out=kept_out TOLDDONE", "excluded: TELLSDONE out=kept_out [TOLDWHEN]", cost=0.2)
+def told_done(out: Excluded, used: int) -> Excluded:
+    """Compose "rows 1 and 2 were done this morning" beside "photograph the remaining tomatoes"."""
+    return replace(out, used=used, done=True)
+
+
 @construction("excluded: WITHOUT one=capture", cost=0.3)
 def not_captured(one: CaptureCommand, used: int) -> Excluded | None:
     """Compose "do not take pictures in row 3"."""
@@ -207,7 +215,7 @@ def _each_without(
     Where no command has such places, those of a description are left out of all of them.
     """
     found = [_without(clause.command, out, site, first=first) for clause in said.clauses]
-    named = out.place is None or any(one.named_tree or as_rows(one) for one in out.place.selector.walk())
+    named = out.place is None or out.done or any(one.named_tree or as_rows(one) for one in out.place.selector.walk())
     if named or any(one is not None for one in found):
         return found
     return [_without(clause.command, out, site, first=first, some=False) for clause in said.clauses]
@@ -242,8 +250,10 @@ def _without(
     if out.actions and not (things and all(one.action in out.actions for one in things)):
         return None
     whole, used = command.place, command.used | out.used
-    if first and (rest := _others(whole, out, site)) is not None:
+    if (first or out.done) and (rest := _others(whole, out, site)) is not None:
         return replace(command, place=rest, used=used)
+    if out.done:
+        return None
     if out.place is None:
         left = except_positions(whole, out.positions)
         return None if left is None else replace(command, place=left[0], used=used)

@@ -9,7 +9,8 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.headings import work_on_the_way_back, work_towards
 from fieldhand.planning.grammar.commands.parameters import with_parameter
-from fieldhand.planning.grammar.commands.working import Tract, along_tract, on_both_sides, on_one_side
+from fieldhand.planning.grammar.commands.sides import worked_on_one_side
+from fieldhand.planning.grammar.commands.working import Tract, along_tract, on_both_sides
 from fieldhand.planning.grammar.meaning import (
     Amount,
     Connective,
@@ -23,6 +24,7 @@ from fieldhand.planning.grammar.words import Lex
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.nodes.work_along import RowSides
+from fieldhand.terms import TreeSide
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -43,7 +45,7 @@ class FurtherGround:
 
     where: Tract
     order: tuple[str, str, bool] | None = None
-    side: Lex | None = None
+    side: TreeSide | None = None
     both: bool = False
     how: ParameterValue | None = None
     back: bool = False
@@ -62,7 +64,7 @@ def further_ground(where: Tract) -> FurtherGround | None:
 
 @construction(
     "further: one=further [COMMA] order=ordered", "further: one=further [COMMA] GO order=ordered",
-    "further: one=further [COMMA] [AT] [DET] side=DIR SIDE", "further: one=further [COMMA] FROM [DET] side=DIR SIDE",
+    "further: one=further [COMMA] [AT] side=own_side", "further: one=further [COMMA] FROM side=own_side",
     "further: one=further [COMMA] [FROM] both=EACHSIDE",
     "further: one=further [COMMA] how=parameter", "further: one=further [COMMA] rate=work_rate",
     "further: one=further [COMMA] back=ONTHEWAY", "further: back=ONTHEWAY [COMMA] one=further",
@@ -72,7 +74,7 @@ def further_ground(where: Tract) -> FurtherGround | None:
 def further_so(
     one: FurtherGround,
     order: tuple[str, str, bool] | None = None,
-    side: Lex | None = None,
+    side: TreeSide | None = None,
     both: Lex | None = None,
     how: ParameterValue | None = None,
     rate: Amount | None = None,
@@ -164,7 +166,7 @@ def _as_said(work: WorkCommand, one: FurtherGround, site: Site) -> WorkCommand |
     if made is not None and one.back:
         made = work_on_the_way_back(made, made.used)
     if made is not None and one.side is not None:
-        made = on_one_side(made, one.side, made.used)
+        made = worked_on_one_side(made, one.side, made.used, site)
     if made is not None and one.both:
         made = on_both_sides(made, made.used)
     return made

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field, replace
 
 from shapely import unary_union
@@ -12,11 +13,13 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Adjunct
 from fieldhand.planning.grammar.commands.waits import LONGEST_WAIT_S
 from fieldhand.planning.grammar.commands.working import Tract
-from fieldhand.planning.grammar.meaning import THAT_GROUND, Amount, CaptureCommand, Thing, WorkCommand, wait_thing
+from fieldhand.planning.grammar.meaning import THAT_GROUND, Amount, CaptureCommand, WorkCommand, rested_things
 from fieldhand.planning.grammar.places.areas import edges
+from fieldhand.planning.grammar.places.numbers import amount
 from fieldhand.planning.grammar.places.sampling import SamplingPath, bare_zone, is_keep_out
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import are_rows, as_zone
+from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -28,6 +31,9 @@ _THIN, _NEARLY = 0.1, 0.8
 _HALF_A_FENCE_M = 0.4
 #: Maximum number of laps, and of captures with a rest between them.
 _MOST_LAPS, _MOST_RESTED = 100, 50
+
+#: Difference of a width from that of so many laps, in laps, that is none.
+_SAME_WIDTH = 0.05
 
 
 # --- laps -------------------------------------------------------------------------------------------------------------
@@ -146,6 +152,30 @@ def worked_in_laps(verb: Lex, used: int, times: int = 1, where: s.Selector | Tra
     return None if made is None else replace(made, action=verb.value)
 
 
+@construction(
+    "strip: [DET] STRIP far=amount DIMENSION",
+    "strip: [DET] STRIP OF far=amount",
+    "strip: [DET] far=amount [DASH] [DIMENSION] STRIP",
+    cost=0.1,
+)
+def strip(far: Amount) -> float | None:
+    """Compose "a strip 3 m wide"."""
+    return far.number if far.unit == "metres" and far.number > 0.0 else None
+
+
+@construction("work: verb=WORKV wide=strip where=lapped", cost=0.1, given=("robot",))
+def worked_strip(verb: Lex, wide: float, where: s.Selector, used: int, robot: RobotProfile) -> list[WorkCommand] | None:
+    """Compose "mow a strip 3 m wide around the paddock", in as many laps side by side; between two numbers, either."""
+    implement = robot.action[verb.value].implement
+    width_m = None if implement is None or not implement.covers else implement.width_m
+    if width_m is None:
+        return None
+    laps = wide / width_m
+    numbers = {max(1, math.floor(laps + _SAME_WIDTH)), max(1, math.ceil(laps - _SAME_WIDTH))}
+    made = [_driven(where, times, used) for times in sorted(numbers)]
+    return [replace(one, action=verb.value) for one in made if one is not None]
+
+
 @construction("circled: CIRCLEV where=region", "circled: CIRCLEV IT", "circled: GO AROUND IT", cost=0.1)
 def circled(where: s.Selector | None = None) -> s.Selector | None:
     """Compose "circle the pond" and "drive round it"."""
@@ -217,13 +247,20 @@ def rest(time: float | Amount) -> float | None:
 )
 @construction(
     "rest: AT [DET] far=amount [DASH] INTERVAL",
-    "rest: EACH far=amount",
     "rest: WITH far=amount BETWEEN [DET] READING",
     cost=0.1,
 )
 def time_apart(far: Amount) -> float | None:
     """Compose "ten minutes apart" and "at ten-minute intervals"."""
     return rest(far)
+
+
+@construction("recurs: [ONCE] EACH gap=amount", "recurs: [ONCE] EACH [half=HALF] unit=UNIT", cost=0.1)
+def recurs(gap: Amount | None = None, unit: Lex | None = None, half: Lex | None = None) -> float | None:
+    """Compose "every ten minutes", "every minute" and "every half hour"."""
+    if unit is not None:
+        return rest(amount(Lex(1.0 if half is None else 0.5, False, ""), unit))
+    return None if gap is None else rest(gap)
 
 
 @construction(
@@ -249,33 +286,55 @@ def rests_after_each_lap(one: WorkCommand, time: float, used: int) -> WorkComman
 
 @dataclass(frozen=True, slots=True)
 class _Rest:
-    """A wait between captures, on a site."""
+    """A wait between captures, on a site; ``recurs`` if the phrase says that they are made again and again."""
 
     seconds: float
     site: Site = field(compare=False)
+    recurs: bool = False
 
 
 def _rested(command: CaptureCommand, rest: _Rest) -> CaptureCommand | None:
     """Return captures at one place, or at each of several, with a wait between one and the next."""
     counts = {one.count for one in command.things}
     place = command.place
-    if command.spacing is not None or len(command.things) != 1:
+    if command.spacing is not None or len(counts) != 1:
         return None
     count = next(iter(counts)) or 1
+    if count == command.times == 1 and rest.recurs:
+        return replace(command, every_s=rest.seconds)  # for how long is said elsewhere
     times = command.times if count == 1 else count if command.times == 1 else 0
     if not 2 <= times <= _MOST_RESTED:
         return None
-    single = place is None or place.shape == "one" or bool(bare_zone(place.selector, rest.site))
+    single = place is None or place.shape in ("one", "here") or bool(bare_zone(place.selector, rest.site))
     if place is not None and not single and not (place.shape == "several" and place.each):
         return None
-    once = replace(command.things[0], count=1)
-    made: list[Thing] = [once]
-    for _ in range(times - 1):
-        made += [wait_thing(rest.seconds), once]
-    return replace(command, things=tuple(made), times=1)
+    once = tuple(replace(one, count=1) for one in command.things)
+    return replace(command, things=rested_things(once, times, rest.seconds), times=1)
 
 
 @construction("adjunct: [and_or_but] time=rest", cost=0.2, given=("site",))
 def rests_between_captures(time: float, site: Site) -> Adjunct:
     """Compose "three times, ten minutes apart"."""
     return Adjunct(_rested, _Rest(time, site), late=True)
+
+
+@construction("adjunct: [AND] time=recurs", cost=0.2, given=("site",))
+def captured_again_and_again(time: float, site: Site) -> Adjunct:
+    """Compose "six times, every ten minutes" and "every ten minutes", for how long is said beside it."""
+    return Adjunct(_rested, _Rest(time, site, recurs=True), late=True, may_lead=True)
+
+
+@construction(
+    "adjunct: FOR [DET] time=amount", "adjunct: OVER [DET] time=amount", "adjunct: FORNEXT time=amount", cost=0.4
+)
+@construction("adjunct: FORNEXT unit=UNIT", cost=0.4)
+def for_so_long(time: Amount | None = None, unit: Lex | None = None) -> Adjunct | None:
+    """Compose "for an hour" and "for the next hour" beside "every ten minutes"."""
+    time = amount(Lex(1.0, False, "1"), unit) if unit is not None else time
+    if time is None:
+        return None
+    return None if rest(time) is None else Adjunct(_lasting, time.number, may_lead=True)
+
+
+def _lasting(command: CaptureCommand, seconds: float) -> CaptureCommand | None:
+    return None if command.for_s else replace(command, for_s=seconds)

@@ -666,6 +666,16 @@ def goes_on_elsewhere(before: Said, one: Again) -> Said | None:
 
 
 @construction(
+    "said: before=said [COMMA] [then] ALSO one=lead", "said: before=said [COMMA] [then] one=lead ALSO", cost=0.3
+)
+def also_there(before: Said, one: Lead, used: int) -> Said | None:
+    """Compose "(if it is below 3 degrees,) also in the wet corner", where the same is done."""
+    if not isinstance(before.clauses[-1].command, When):
+        return None
+    return Said((*before.clauses, LinkedCommand(None, replace(one, used=used & ~_used_by(before)))))
+
+
+@construction(
     "said: before=said joint=joint STOP AND way=home ASSOONAS tests=tests",
     "said: before=said joint=joint STOP AND way=home WHERE tests=tests",
     "said: before=said joint=joint STOP AND way=home IF tests=tests",

@@ -7,7 +7,16 @@ from dataclasses import dataclass, field, replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Adjunct, once
-from fieldhand.planning.grammar.meaning import CaptureCommand, LinkedCommand, PaceClause, PlaceMeaning, Said, Thing
+from fieldhand.planning.grammar.meaning import (
+    LAST_THING,
+    CaptureCommand,
+    LinkedCommand,
+    PaceClause,
+    PlaceMeaning,
+    Said,
+    Thing,
+)
+from fieldhand.planning.grammar.places.lines import SamplingLine
 from fieldhand.planning.grammar.places.points import Points, points_on
 from fieldhand.planning.grammar.places.sampling import (
     SamplingPath,
@@ -24,12 +33,15 @@ from fieldhand.site.model import Site
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
+#: A path, or a straight line, and the area that it crosses; None for the place of the command, or the site.
+SamplingWay = tuple[SamplingPath | SamplingLine, s.Selector | None]
+
 
 @dataclass(frozen=True, slots=True)
 class _Route:
     """A path and the area that it crosses; None for the place of the command, or the site."""
 
-    path: SamplingPath
+    path: SamplingPath | SamplingLine
     where: s.Selector | None
     site: Site = field(compare=False)
 
@@ -95,14 +107,18 @@ def _at(command: CaptureCommand, selector: s.Selector | None, count: int | None)
 
 
 @construction("adjunct: along=path_over", cost=0.2, given=("site",))
-def along_path(along: tuple[SamplingPath, s.Selector | None], site: Site) -> Adjunct:
+def along_path(along: SamplingWay, site: Site) -> Adjunct:
     """Compose "in a W through the north block", of so many samples."""
     return Adjunct(_along, _Route(*along, site), may_lead=True, late=True, lays_out=True)
 
 
 @construction("said: along=path_over [COMMA] how=pace [COMMA] AND act=capture", cost=0.3, given=("site",))
 def round_at_pace(
-    along: tuple[SamplingPath, s.Selector | None], how: PaceClause, act: CaptureCommand, used: int, site: Site
+    along: SamplingWay,
+    how: PaceClause,
+    act: CaptureCommand,
+    used: int,
+    site: Site,
 ) -> Said | None:
     """Compose "circle the pond at 0.5 m/s and take a picture every 10 m"."""
     made = _along(act, _Route(*along, site))
@@ -120,6 +136,13 @@ def on_path() -> Adjunct:
 def _on_path(command: CaptureCommand, _: None) -> CaptureCommand | None:
     shape = "" if command.place is None else getattr(command.place.selector, "shape", "")
     return command if shape else None
+
+
+@construction("capture: dist=every ALONG rows=rows", "capture: ALONG rows=rows dist=every", cost=0.6)
+def spaced_again(dist: float, rows: s.Selector, used: int) -> CaptureCommand:
+    """Compose "every 5 m along bed 8" behind what is captured at another place."""
+    along = PlaceMeaning(rows, "area")
+    return CaptureCommand((Thing(LAST_THING),), along, used, relation="along", spacing=dist)
 
 
 @construction("adjunct: on=grid_over", cost=0.2, given=("site",))
@@ -143,15 +166,20 @@ def each_way(every: float, site: Site) -> Adjunct:
     "walked: PATHGO OVER where=region path=in_path",
     "walked: path=path OVER where=region",
     "walked: path=path in_ where=region",
+    "walked: [TAKE] times=laps where=lapped",
+    "walked: [GO] times=often [COMMA] AROUND where=region",
     cost=0.1,
 )
 def walked(
-    along: tuple[SamplingPath, s.Selector | None] | None = None,
+    along: SamplingWay | None = None,
     path: SamplingPath | None = None,
     where: s.Selector | None = None,
-) -> tuple[SamplingPath, s.Selector | None] | None:
-    """Compose "cross the meadow in an X" before what is done on the way."""
-    return along if path is None else (path, where)
+    times: int = 1,
+) -> SamplingWay | None:
+    """Compose "cross the meadow in an X" before what is done on the way, and "one lap of the pond"."""
+    if times != 1:
+        return None
+    return along or (path or SamplingPath("edge", 1), where)
 
 
 @construction(
@@ -165,13 +193,65 @@ def walked(
     given=("site",),
 )
 def captured_on_the_way(
-    on: tuple[SamplingPath, s.Selector | None], things: tuple[Thing, ...], used: int, site: Site, n: int = 0
+    on: SamplingWay,
+    things: tuple[Thing, ...],
+    used: int,
+    site: Site,
+    n: int = 0,
 ) -> CaptureCommand | None:
     """Compose "walk the slope in a W and read nitrate at fifteen stops on the way"."""
     path, where = on
     if n < 2 or any(one.count not in (None, 1) for one in things):
         return None
     return _at(CaptureCommand(things, None, used), path.over(where, site, count=n), n)
+
+
+@construction(
+    "at_corners: [AT] [DET] [n=count] noun=CORNER", "at_corners: [AT] DET [n=count] noun=CORNER OF IT", cost=0.0
+)
+@construction(
+    "at_corners: [AT] word=EACH [DET] [n=count] noun=CORNER ", "at_corners: [AT] word=EACH noun=CORNER OF IT", cost=0.0
+)
+@construction("at_corners: [AT] word=EACH OF DET [n=count] noun=CORNER", cost=0.0)
+def at_corners(noun: Lex, n: int | None = None, word: Lex | None = None) -> str | None:
+    """Compose "in each corner" and "at each of its four corners"."""
+    return "corners" if n in (None, 4) and (word is not None or noun.plural) else None
+
+
+@construction(
+    "capture: on=walked [COMMA] [AND] WITH things=things at_corners",
+    "capture: on=walked [COMMA] [AND] STOPEACH at_corners FOR things=things",
+    "capture: on=walked [COMMA] [AND] STOPEACH at_corners [COMMA] INORDERTO verb things=things",
+    "capture: on=walked [COMMA] [AND] joint=verb things=things at_corners",
+    "capture: on=walked [COMMA] [AND] joint=ACTV at_corners",
+    cost=0.0, given=("site",),
+)  # fmt: skip
+def captured_at_corners(
+    on: SamplingWay,
+    used: int,
+    site: Site,
+    things: tuple[Thing, ...] = (),
+    joint: Lex | str | None = None,
+) -> CaptureCommand | None:
+    """Compose "go once round the paddock with a picture in each corner"."""
+    path, where = on
+    ground = bare_ground(s.Trees() if where is None else where, site)
+    if (
+        isinstance(path, SamplingLine)
+        or path.shape != "edge"
+        or (ground is not None and (ground.left_out or ground.part != "all"))
+    ):
+        return None
+    if isinstance(joint, Lex):
+        things = (Thing(joint.value.actions[0]),)
+    if not things or any(one.count not in (None, 1) for one in things):
+        return None
+    if ground is None:  # "drive round the orchard and take a picture at each corner" are two steps
+        at = s.Corners(of=where or s.Trees()) if joint is None else None
+    else:
+        zone = ground.zone or next((one.name for one in site.zones if one.kind == "boundary"), "")
+        at = s.Corners(zone=zone) if zone else None
+    return None if at is None else CaptureCommand(once(things), PlaceMeaning(at, "several", count=4, each=True), used)
 
 
 @construction(
@@ -350,7 +430,7 @@ def laid_along_path(
     site: Site,
     path: SamplingPath | None = None,
     where: s.Selector | None = None,
-    on: tuple[SamplingPath, s.Selector | None] | None = None,
+    on: SamplingWay | None = None,
 ) -> PlaceMeaning | None:
     """Compose "lay a W with twelve points over the slope"."""
     route, over_what = on if on is not None else (path, where)

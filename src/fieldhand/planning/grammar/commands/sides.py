@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from fieldhand.places import selectors as s
@@ -11,6 +11,7 @@ from fieldhand.planning.grammar.commands.clauses import Adjunct
 from fieldhand.planning.grammar.meaning import CaptureCommand, PlaceMeaning, WorkCommand
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.places.planted_rows import rows_out_of
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import are_rows, is_gate, is_one_row
 from fieldhand.site.model import Site
@@ -35,9 +36,15 @@ def both_sides(noun: Lex | None = None) -> TreeSide | None:
     return "both" if noun is None or "borders" in noun.features else None
 
 
-@construction("own_side: [DET] side=DIR SIDE", "own_side: ITS side=DIR SIDE", cost=0.1)
-def compass_side(side: Lex) -> TreeSide | None:
-    """Compose "the east side"."""
+@construction(
+    "own_side: [DET] side=DIR SIDE", "own_side: ITS side=DIR SIDE", "own_side: [DET] side=DIR AISLE",
+    "own_side: [DET] AISLE side=DIR OF IT", "own_side: [DET] AISLE [WHICH] [IS] AT side=own_side",
+    "own_side: [DET] AISLE AT DET side=DIR OF IT", cost=0.1,
+)  # fmt: skip
+def compass_side(side: Lex | TreeSide) -> TreeSide | None:
+    """Compose "the east side" and "the aisle to the west of it"."""
+    if isinstance(side, str):
+        return side
     return side.value if side.value in SIDES else None
 
 
@@ -73,7 +80,8 @@ def side_of(side: TreeSide, place: PlaceMeaning) -> PlaceMeaning | None:
 @construction("place: side=own_side OF place=place", cost=0.2, given=("site",))
 def side_of_row(side: TreeSide, place: PlaceMeaning, site: Site) -> PlaceMeaning | None:
     """Compose "the west side of row 4", which runs north to south; the north side of it is one of its ends."""
-    return beside(place, side) if place.shape == "area" and side in _across_rows(place.selector, site) else None
+    whole = place.shape == "area" or (place.shape == "several" and place.count is None)
+    return beside(place, side) if whole and side in across_rows(place.selector, site) else None
 
 
 @construction("hand: [DET] LEFTSIDE", "hand: ITS LEFTSIDE", "hand: DET LEFTHAND", cost=0.1)
@@ -119,13 +127,22 @@ def on_side_of_row(side: TreeSide, site: Site) -> Adjunct | None:
     ways = {block.runs_east_west for block in site.planting.blocks}
     if len(ways) != 1 or (side in ("north", "south")) not in ways:
         return None
-    return Adjunct(_on_rows, side, of_place=True)
+    return Adjunct(_on_rows, _RowSide(side, site), of_place=True)
 
 
-def _on_rows(command: CaptureCommand, side: TreeSide) -> CaptureCommand | None:
+@dataclass(frozen=True, slots=True)
+class _RowSide:
+    """A side of rows, on a site."""
+
+    side: TreeSide
+    site: Site = field(compare=False)
+
+
+def _on_rows(command: CaptureCommand, on: _RowSide) -> CaptureCommand | None:
     place = command.place
-    is_rows = place is not None and place.shape == "area" and are_rows(place.selector)
-    return _on_side(command, side) if is_rows else None
+    if place is None or place.shape not in ("area", "several") or place.count is not None:
+        return None
+    return _on_side(command, on.side) if on.side in across_rows(place.selector, on.site) else None
 
 
 def _compass(hand: Hand, ways: set[bool]) -> TreeSide:
@@ -145,9 +162,9 @@ def _run_east_west(selector: s.Selector, site: Site) -> set[bool]:
     return {planting.blocks[planting.rows[row].block].runs_east_west for row in rows}
 
 
-def _across_rows(selector: s.Selector, site: Site) -> set[TreeSide]:
-    """Return the sides of rows, if they all run the same way; empty for other places."""
-    if not are_rows(selector):
+def across_rows(selector: s.Selector, site: Site) -> set[TreeSide]:
+    """Return the sides of rows, or of all plants of some, if they run the same way; empty for other places."""
+    if not are_rows(selector) and (s.Trees() in selector.members or rows_out_of(selector, site) is None):
         return set()
     ways = _run_east_west(selector, site)
     return set() if len(ways) != 1 else {"north", "south"} if True in ways else {"east", "west"}
@@ -190,9 +207,23 @@ def from_a_direction(side: Lex) -> Adjunct | None:
 @construction("work: one=work [COMMA] FROM [DET] side=DIR", cost=0.2, given=("site",))
 def worked_from_a_side(one: WorkCommand, side: Lex, used: int, site: Site) -> WorkCommand | None:
     """Compose "film row 4 from the east", which runs north to south; from the south it may be a direction."""
-    fits = one.mode == "rows" and one.sides == "one" and one.along is not None and is_one_row(one.along)
-    across = fits and one.along is not None and side.value in _across_rows(one.along, site)
-    return replace(one, sides=side.value, used=used) if across else None
+    if one.mode != "rows" or one.sides != "one" or one.along is None:
+        return None
+    in_one = is_one_row(one.along) or is_one_row(rows_out_of(one.along, site) or s.Trees())
+    return replace(one, sides=side.value, used=used) if in_one and side.value in across_rows(one.along, site) else None
+
+
+@construction(
+    "work: one=work [COMMA] [AT] side=own_side", "work: one=work [COMMA] [EACH] FROM side=own_side",
+    "work: one=work [COMMA] ALONG side=own_side", "work: one=work [COMMA] GO AT side=own_side",
+    "work: one=work [COMMA] GO ALONG side=own_side", cost=0.1, given=("site",),
+)  # fmt: skip
+def worked_on_one_side(one: WorkCommand, side: TreeSide, used: int, site: Site) -> WorkCommand | None:
+    """Compose "spray rows 3 to 8 at 300 l/ha on the west side" and "film the carrots from the west side"."""
+    if one.mode != "rows" or one.sides != "one" or one.along is None:
+        return None
+    sided = are_rows(one.along) or side in across_rows(one.along, site)
+    return replace(one, sides=side, used=used) if sided else None
 
 
 @construction(

@@ -14,7 +14,7 @@ GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
 
-def _named(noun: Lex, *, count: int | None = None, plural: bool = False) -> Thing | None:
+def named_capture(noun: Lex, *, count: int | None = None, plural: bool = False) -> Thing | None:
     """Return the capture that a noun names; None if it names only a quantity that no action measures."""
     naming: Naming = noun.value
     if not naming.actions:
@@ -25,19 +25,19 @@ def _named(noun: Lex, *, count: int | None = None, plural: bool = False) -> Thin
 @construction("thing: [DET] noun=NOUN", cost=0.0)
 def thing(noun: Lex) -> Thing | None:
     """Compose "a picture"."""
-    return _named(noun, plural=noun.plural)
+    return named_capture(noun, plural=noun.plural)
 
 
 @construction("thing: word=DET noun=NOUN", "thing: word=ANOTHER noun=NOUN", cost=0.0)
 def one_thing(word: Lex, noun: Lex) -> Thing | None:
     """Compose "another picture"."""
-    return _named(noun, count=1) if "one" in word.features and not noun.plural else None
+    return named_capture(noun, count=1) if "one" in word.features and not noun.plural else None
 
 
 @construction("thing: n=count [MORE] noun=NOUN", "thing: ANOTHER n=count noun=NOUN", cost=0.0)
 def so_many_things(n: int, noun: Lex) -> Thing | None:
     """Compose "three pictures"."""
-    return _named(noun, count=n, plural=True)
+    return named_capture(noun, count=n, plural=True)
 
 
 @construction("thing: word=DET LAST noun=NOUN", "thing: n=count LAST noun=NOUN", cost=0.2)
@@ -45,13 +45,17 @@ def last_thing(noun: Lex, word: Lex | None = None, n: int = 1) -> Thing | None:
     """Compose "one last picture" and "a final reading"; "the last picture" is one that was taken."""
     if noun.plural != (n > 1) or (word is not None and "indefinite" not in word.features):
         return None
-    return _named(noun, count=n, plural=n > 1)
+    return named_capture(noun, count=n, plural=n > 1)
 
 
-@construction("thing: [DET] noun=NOUN READING", "thing: READING OF [DET] noun=NOUN", cost=0.1)
-def reading_of(noun: Lex) -> Thing | None:
-    """Compose "the temperature reading"."""
-    return _named(noun)
+@construction(
+    "thing: [DET] noun=NOUN word=READING", "thing: word=READING OF [DET] noun=NOUN",
+    "thing: [DET] noun=NOUN INSTRUMENT",
+    cost=0.1,
+)  # fmt: skip
+def reading_of(noun: Lex, word: Lex | None = None) -> Thing | None:
+    """Compose "the temperature reading" and "the moisture probe"."""
+    return named_capture(noun, plural=word is not None and word.plural)
 
 
 @construction(
@@ -70,7 +74,7 @@ def how_much(noun: Lex) -> Thing | None:
 @construction("thing: n=count noun=NOUN READING", "thing: n=count READING OF [DET] noun=NOUN", cost=0.1)
 def readings_of(n: int, noun: Lex) -> Thing | None:
     """Compose "three temperature readings"."""
-    return _named(noun, count=n, plural=True)
+    return named_capture(noun, count=n, plural=True)
 
 
 @construction(
@@ -97,7 +101,7 @@ def another_of_them() -> Thing:
 @construction("thing: [DET] rank=ORD noun=NOUN", cost=0.3)
 def second_thing(rank: Lex, noun: Lex) -> Thing | None:
     """Compose "a second picture"."""
-    return _named(noun, count=1) if rank.value == 2 and not noun.plural else None
+    return named_capture(noun, count=1) if rank.value == 2 and not noun.plural else None
 
 
 @construction("thing: [word=DET] reading=READING", "thing: n=count reading=READING", cost=4.0)

@@ -8,9 +8,11 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
+    Again,
     Amount,
     CaptureCommand,
     Connective,
+    DriveCommand,
     LinkedCommand,
     PlaceMeaning,
     Said,
@@ -204,8 +206,6 @@ def settle_before(time: float, before: Lex, one: CaptureCommand, used: int) -> S
     "once_more_act: MEASURE IT AGAIN",
     "once_more_act: TAKE IT AGAIN",
     "once_more_act: MEASURE AGAIN",
-    "once_more_act: REPEAT IT",
-    "once_more_act: REPEAT",
     "once_more_act: [TAKE] ANOTHER [ONE]",
     "once_more_act: [TAKE] ANOTHER READING",
     cost=0.2,
@@ -223,9 +223,43 @@ def later(time: Amount, word: Lex | None = None) -> float | None:
     return duration(time) if word is None or "after_doing" in word.features else None
 
 
+@construction("from_now: word=AT time=amount", cost=0.1)
+def from_now(word: Lex, time: Amount) -> float | None:
+    """Compose "in ten minutes", of what is repeated; of other work it is the time that it may take."""
+    return duration(time) if word.text == "in" else None
+
+
+@construction(
+    "again: one=again [COMMA] time=later",
+    "again: time=later [COMMA] one=again",
+    "again: one=again [COMMA] [and_or_but] time=rest",
+    "again: one=again [COMMA] time=recurs",
+    "again: what=round [COMMA] time=later",
+    "again: time=later [COMMA] what=round",
+    "again: one=again time=from_now",
+    "again: time=from_now [COMMA] one=again",
+    "again: what=round [AGAIN] time=from_now",
+    "again: time=from_now [COMMA] what=round [AGAIN]",
+    "again: what=round AGAIN time=later",
+    "again: time=later [COMMA] what=round AGAIN",
+    cost=0.1,
+)
+def repeated_later(
+    time: float | Amount, used: int, one: Again | None = None, what: tuple[bool, bool] = (False, False)
+) -> Again | None:
+    """Compose "do it all again half an hour later" and "three rounds, ten minutes apart"."""
+    seconds = duration(time) if isinstance(time, Amount) else time
+    if seconds is None or (one is not None and (one.place is not None or one.rest_s)):
+        return None
+    known = one or Again(None, used, times=1, whole=what[0])
+    return replace(known, times=known.times or 1, rest_s=seconds, used=used)
+
+
 @construction(
     "said: before=said joint=joint once_more_act time=later",
     "said: before=said joint=joint time=later [COMMA] once_more_act",
+    "said: before=said joint=joint once_more_act time=from_now",
+    "said: before=said joint=joint time=from_now [COMMA] once_more_act",
     cost=0.3,
 )
 def again_later(before: Said, joint: Connective, time: float, used: int) -> Said | None:
@@ -238,3 +272,18 @@ def again_later(before: Said, joint: Connective, time: float, used: int) -> Said
     return Said(
         (*before.clauses, LinkedCommand(joint, wait), LinkedCommand(Connective(False, True, 0, both=True), again))
     )
+
+
+@construction(
+    "said: before=said joint=joint time=later [COMMA] one=capture",
+    "said: before=said joint=joint time=later [COMMA] one=drive",
+    cost=0.5,
+)
+def later_done(before: Said, joint: Connective, time: float, one: CaptureCommand | DriveCommand, used: int) -> Said:
+    """Compose "read CO2 at tree 4. Ten minutes later, photograph tree 9"."""
+    own = used & ~joint.used & ~one.used
+    for clause in before.clauses:
+        own &= ~(clause.command.used | (0 if clause.before is None else clause.before.used))
+    wait = CaptureCommand((wait_thing(time),), None, own)
+    then = Connective(False, True, 0, both=True)
+    return Said((*before.clauses, LinkedCommand(joint, wait), LinkedCommand(then, one)))

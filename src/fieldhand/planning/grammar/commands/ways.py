@@ -8,6 +8,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.exclusions import Excluded, left_out_of
 from fieldhand.planning.grammar.meaning import (
+    THAT_GROUND,
     Amount,
     CaptureCommand,
     Command,
@@ -21,8 +22,9 @@ from fieldhand.planning.grammar.meaning import (
     WorkCommand,
 )
 from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.places.planted_rows import filled_rows
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import is_drawn, is_gate, named_places, swapped
+from fieldhand.planning.selections import are_rows, is_drawn, is_gate, named_places, over, swapped
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
@@ -30,7 +32,7 @@ GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
 
-@construction("way_rule: KEEPOUT place=place", "way_rule: place=place OFFLIMITS", cost=0.2)
+@construction("way_rule: KEEPOUT place=place [ITSELF]", "way_rule: place=place OFFLIMITS", cost=0.2)
 def keep_out(place: PlaceMeaning, used: int) -> WayRule | None:
     """Compose "stay out of row 10", "avoid the pond" and "row 10 is off limits"."""
     places = kept_from(place)
@@ -43,6 +45,12 @@ def not_through(place: PlaceMeaning, used: int, word: Lex | None = None) -> WayR
     del word
     places = kept_from(place)
     return None if places is None else WayRule(tuple((one, 0.0) for one in places), used=used)
+
+
+@construction("way_rule: WITHOUT PASSES IT [ITSELF]", cost=0.2)
+def not_through_it(used: int) -> WayRule:
+    """Compose "without driving onto it", the ground that was spoken of before."""
+    return WayRule(((s.InZone(zone=THAT_GROUND), 0.0),), used=used)
 
 
 @construction("around: DRIVEAROUND place=place", cost=0.2)
@@ -275,7 +283,7 @@ def _keeping(said: Said, rule: WayRule, site: Site) -> tuple[LinkedCommand, ...]
     """Return commands without the trees at which the robot could not work, where the request leaves a choice."""
     clauses = said.clauses
     for places, metres in rule.avoid:
-        if metres or ids_of(places, site) is None:
+        if metres or places == s.InZone(zone=THAT_GROUND) or ids_of(places, site) is None:
             continue
         clauses = tuple(
             replace(clause, command=_kept(clause.command, places, site, leaves_out=places in rule.left_out))
@@ -301,6 +309,57 @@ def _kept(command: Command, places: s.Selector, site: Site, *, leaves_out: bool)
         return command  # "trees 4 and 9": a check tells which of them cannot be reached
     rest = left_out_of(command, Excluded(PlaceMeaning(places, "area")), site)
     return command if rest is None else rest
+
+
+# Rows of ground into which the robot drives, by a gate.
+
+
+@construction(
+    "into: INTO where=region", "into: AT where=region", "into: INTO where=region [COMMA] ENTERBY gates", cost=0.1
+)
+def into_ground(where: s.Selector) -> s.Selector | None:
+    """Compose "get into the cool section" before what is done there."""
+    return None if are_rows(where) else where
+
+
+@construction(
+    "rows_there: EACH [OF] [DET] noun=ROW [THERE]", "rows_there: EACH [OF] [DET] n=count noun=ROW [THERE]",
+    "rows_there: EACH [OF] ITS noun=ROW", "rows_there: EACH [OF] ITS n=count noun=ROW", "rows_there: ITS noun=ROW",
+    "rows_there: ITS n=count noun=ROW", "rows_there: DET n=count noun=ROW THERE", "rows_there: DET noun=ROW THERE",
+    cost=0.0,
+)  # fmt: skip
+def rows_there(noun: Lex, n: int = 0) -> int:
+    """Compose "all four rows there": their number, 0 if it is not said."""
+    return n if noun.plural or not n else -1
+
+
+@construction(
+    "work: where=into [COMMA] AND verb=WORKV n=rows_there", "work: where=into COMMA verb=WORKV n=rows_there", cost=0.2,
+    given=("site", "robot"),
+)  # fmt: skip
+def worked_there(
+    where: s.Selector, verb: Lex, n: int, used: int, site: Site, robot: RobotProfile
+) -> WorkCommand | None:
+    """Compose "get into the cool section and film all four rows there"."""
+    rows, implement = filled_rows(where, site), robot.action[verb.value].implement
+    if not rows or n not in (0, len(rows)) or implement is None or implement.covers:
+        return None
+    return WorkCommand(action=verb.value, along=over(s.Rows(), where), mode="rows", used=used)
+
+
+@construction(
+    "entered_by: VIAGATE gates=gates INORDERTO", "entered_by: VIAGATE gates=gates INORDERTO INTO AND", cost=0.1
+)
+@construction("entered_by: VIAGATE gates=gates", cost=0.3)
+def entered_by(gates: tuple[str, ...], used: int) -> WayRule:
+    """Compose "use the north door to", before work on the ground behind it."""
+    return WayRule(gates=gates, used=used)
+
+
+@construction("said: rule=entered_by one=work", cost=0.1)
+def worked_behind_gate(rule: WayRule, one: WorkCommand) -> Said | None:
+    """Compose "use the north door to get into the cool section and film all four rows there"."""
+    return Said((LinkedCommand(None, rule), LinkedCommand(None, one))) if one.along is not None and one.action else None
 
 
 @construction("leaving: word=ENTERBY gate=place", cost=0.1)

@@ -14,7 +14,6 @@ from fieldhand.planning.grammar.meaning import Amount, Nominal, ParameterValue, 
 from fieldhand.planning.grammar.places.areas import edges
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.places.numbered import ids_of
-from fieldhand.planning.grammar.places.numbers import name_of
 from fieldhand.planning.grammar.places.planted_rows import rows_out_of
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import are_rows, is_one_row, over, rows_kept
@@ -62,43 +61,6 @@ def rows_tract(rows: s.Selector, way: Lex | None = None) -> Tract | None:
 
 
 @construction(
-    "tract: [ALONG] BETWEEN ROW first=row_name AND [ROW] last=row_name",
-    "tract: [ALONG] [DET] AISLE BETWEEN [ROW] first=row_name AND [ROW] last=row_name",
-    "tract: [ALONG] [DET] AISLE FROM ROW first=row_name range_to [ROW] last=row_name",
-    cost=0.0,
-)
-def aisles_between(first: Lex, last: Lex) -> Tract:
-    """Compose "between rows 10 and 14"."""
-    return Tract(s.Rows(first=name_of(first), last=name_of(last)), "aisles")
-
-
-@construction(
-    "tract: [ALONG] [in_] EACH AISLE",
-    "tract: [ALONG] [in_] EACH [DET] AISLE",
-    "tract: [ALONG] [in_] [DET] noun=AISLE",
-    "tract: [ALONG] [in_] EACH other=OTHER AISLE",
-    "tract: [ALONG] [in_] EACH rank=ORD AISLE",
-    cost=0.1,
-)
-def aisles(noun: Lex | None = None, other: Lex | None = None, rank: Lex | None = None) -> Tract | None:
-    """Compose "every second aisle" and "the aisles"."""
-    if noun is not None and not noun.plural:
-        return None
-    every = 1 if rank is None else int(rank.value)
-    if other is not None:
-        every = 2
-    return Tract(s.Trees(), "aisles", every=every) if every >= 1 else None
-
-
-@construction("tract: part=tract BETWEEN [ROW] first=row_name AND [ROW] last=row_name", cost=0.0)
-def some_aisles_between(part: Tract, first: Lex, last: Lex) -> Tract | None:
-    """Compose "every second aisle between rows 3 and 6"."""
-    if part.mode != "aisles" or part.selector != s.Trees():
-        return None
-    return replace(part, selector=s.Rows(first=name_of(first), last=name_of(last)))
-
-
-@construction(
     "tract: EACH [word=DET] n=count noun=ROW in_ where=region", "tract: word=DET n=count noun=ROW in_ where=region",
     cost=0.1, given=("site",),
 )  # fmt: skip
@@ -112,19 +74,12 @@ def all_rows_there(n: int, noun: Lex, where: s.Selector, site: Site, word: Lex |
     return Tract(over(s.Rows(), where), "rows") if len(there) == n and all(row <= plants for row in there) else None
 
 
-@construction("tract: part=tract OF where=region", "tract: part=tract in_ where=region", cost=0.1)
-def tract_of(part: Tract, where: s.Selector) -> Tract | None:
-    """Compose "every second aisle of the north block"."""
-    if part.mode not in ("aisles", "headlands") or where == part.selector:
-        return None
-    if part.selector == s.Trees():
-        return replace(part, selector=where)
-    return replace(part, selector=over(part.selector, where)) if are_rows(part.selector) else None
-
-
-@construction("tract: [AT] [DET] side=DIR SIDE OF rows=rows", cost=0.0)
+@construction(
+    "tract: [AT] [DET] side=DIR SIDE OF rows=rows", "tract: ALONG [DET] side=DIR SIDE OF rows=rows",
+    "tract: [AT] [DET] side=DIR SIDE OF rows=crop_area", "tract: ALONG [DET] side=DIR SIDE OF rows=crop_area", cost=0.0,
+)  # fmt: skip
 def one_side(side: Lex, rows: s.Selector) -> Tract | None:
-    """Compose "the west side of row 4"."""
+    """Compose "the west side of row 4" and "along the west side of the carrots"."""
     return Tract(rows, "rows", sides=side.value) if side.value in SIDES else None
 
 
@@ -214,7 +169,7 @@ def headlands(noun: Lex) -> Tract:
 
 
 @construction(
-    "edge_line: [DET] EDGE",
+    "edge_line: [DET] edge_word",
     "edge_line: [DET] EDGE OF where=region",
     "edge_line: [DET] EDGE OF site",
     "edge_line: [DET] zone=ZONEPOSS EDGE",
@@ -366,17 +321,6 @@ def sprayed_against(one: WorkCommand, used: int, robot: RobotProfile) -> WorkCom
 def as_much(one: WorkCommand, used: int) -> WorkCommand | None:
     """Compose "spray rows 3 to 8, as much as you can"."""
     return None if one.along is None or one.optional else replace(one, optional=True, used=used)
-
-
-@construction(
-    "work: one=work [COMMA] [AT] [DET] side=DIR SIDE", "work: one=work [COMMA] FROM [DET] side=DIR SIDE",
-    "work: one=work [COMMA] AT ITS side=DIR SIDE", "work: one=work [COMMA] FROM ITS side=DIR SIDE",
-    "work: one=work [COMMA] ALONG ITS side=DIR SIDE", "work: one=work [COMMA] ALONG [DET] side=DIR SIDE", cost=0.1,
-)  # fmt: skip
-def on_one_side(one: WorkCommand, side: Lex, used: int) -> WorkCommand | None:
-    """Compose "spray rows 3 to 8 at 300 l/ha on the west side" and "film row 3 from the west side"."""
-    fits = one.mode == "rows" and one.sides == "one" and one.along is not None and side.value in SIDES
-    return replace(one, sides=side.value, used=used) if fits else None
 
 
 @construction(

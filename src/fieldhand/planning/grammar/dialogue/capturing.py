@@ -78,6 +78,7 @@ from fieldhand.planning.selections import (
     as_every_nth,
     as_in_row,
     as_some,
+    chooses_from_trees,
     counts_in_row,
     drawn_like,
     from_nearest_row,
@@ -110,7 +111,7 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
         state = enter(setting, state, state.area)  # "move two rows over and take another"
     state, begun = _along_from_its_end(state, command)
     same = any(one.action == LAST_THING and one.count is None for one in command.things)
-    if same and command.place is not None and command.place.shape == "area":
+    if same and command.place is not None and command.place.shape == "area" and command.spacing is None:
         raise NotComposed(message("at every tree, or at how many?", context="fault"))
     state, command = _with_unsaid_again(setting, state, command)
     state, things = named_things(setting, state, command)
@@ -152,6 +153,9 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
         raise NotComposed(
             message("it is not clear whether each of those is meant, or each tree of the site", context="fault")
         )
+    if command.relation == "along" and place.shape == "area" and is_keep_out(place.selector, setting.site):
+        asked = message("'{said}': at how many places?", context="question", said=setting.quoted(command.used))
+        raise OpenQuestion(asked)
     refuse_keep_out(setting, place)
     place, things = fitted(setting, place, things, command.relation, command.used)
     if state.where is not None and any(one.more and (one.count or 0) > 1 for one in command.things):
@@ -408,6 +412,8 @@ def _place_of(
             return further, state, said
     if place is not None and first.selector in anchors(place.selector):
         return place, state, said  # "begin at the pond: ... the five trees closest to it"
+    if isinstance(before, DriveCommand) and place is not None and (middle := _bare_middle(setting, first, place)):
+        return place, drive(setting, state, DriveCommand(middle, before.used)), ()  # "go to the tap, photograph row 3"
     if first.shape == "area" and first.per is None:
         return in_area(setting, before, place), replace(state, within=first.selector), said
     if first.per is not None and place is not None and place.per is None and place.shape in ("one", "several"):
@@ -426,6 +432,17 @@ def _place_of(
     if place is not None and every is not None and every.of == s.Trees() and first.shape == "several":
         return replace(place, selector=over(every, first.selector)), state, said
     raise NotComposed(message("it is not clear at which of two places this is done", context="fault"))
+
+
+def _bare_middle(setting: Setting, area: PlaceMeaning, place: PlaceMeaning) -> PlaceMeaning | None:
+    """Return the middle of an area where nothing grows, before what is done at plants elsewhere; None otherwise."""
+    if area.shape != "area" or area.per is not None or not setting.site.trees or is_spoken_of(place):
+        return None
+    named = all(one.named_tree for one in place.selector.members)
+    chosen = named or (chooses_from_trees(place.selector) and not place.selector.relative)
+    of_trees = place.shape in ("one", "several") and chosen
+    middle = bare_points(area.selector, setting.site, 1) if of_trees or are_rows(place.selector) else None
+    return None if middle is None or is_keep_out(area.selector, setting.site) else PlaceMeaning(middle, "one")
 
 
 def _contrasted(setting: Setting, state: DialogueState, place: PlaceMeaning | None, used: int) -> PlaceMeaning | None:

@@ -18,6 +18,7 @@ from fieldhand.planning.grammar.dialogue.capturing import (
 from fieldhand.planning.grammar.dialogue.compared import in_both_cases, is_compared
 from fieldhand.planning.grammar.dialogue.conditions import (
     captured_where,
+    ends_among_visits,
     in_no_case,
     otherwise,
     pass_on,
@@ -40,6 +41,7 @@ from fieldhand.planning.grammar.dialogue.energy import recharged, reserve_in_per
 from fieldhand.planning.grammar.dialogue.faults import Fork
 from fieldhand.planning.grammar.dialogue.fitting import in_area, is_spoken_of
 from fieldhand.planning.grammar.dialogue.fragments import assembled
+from fieldhand.planning.grammar.dialogue.intervals import at_intervals, with_intervals
 from fieldhand.planning.grammar.dialogue.likewise import with_known_place
 from fieldhand.planning.grammar.dialogue.paces import paced, paced_drive, with_paces
 from fieldhand.planning.grammar.dialogue.plans import (
@@ -47,7 +49,9 @@ from fieldhand.planning.grammar.dialogue.plans import (
     as_for_each,
     block_at,
     is_idle_case,
+    node_at,
     walk,
+    with_node,
     without_idle_cases,
 )
 from fieldhand.planning.grammar.dialogue.series import at_compared, is_by_reading, with_read_place
@@ -160,7 +164,7 @@ def read_clauses(setting: Setting, said: Said, *, in_fragments: bool = False) ->
         NotComposed: The clauses do not fit together.
         Fork: They can be continued in several ways, and ``setting`` does not say in which.
     """
-    clauses, edits = as_meant(setting, at_compared(said.clauses))
+    clauses, edits = as_meant(setting, with_intervals(at_compared(said.clauses)))
     if in_fragments and (whole := assembled(setting, clauses)) != clauses:
         clauses = whole
     elif in_fragments:
@@ -311,6 +315,7 @@ def _read(
         case CaptureCommand():
             if all(wait_seconds(thing.action) is not None for thing in command.things):
                 return waited(setting, state, command, joint)
+            state, command = at_intervals(setting, state, command)
             if command.instead and not _is_another_case(state):
                 raise NotComposed(message("it is not clear what is not done then", context="fault"))
             if state.lead is not None and not state.lead.relation and (joint is None or joint.both):
@@ -366,10 +371,13 @@ def _read(
         case CaptureWhere():
             return captured_where(setting, state, command)
         case Otherwise() if following and isinstance(following[0].command, PassOn):
-            return in_no_case(state, setting.spans_of(command.used))
+            return in_no_case(capture_elided(setting, state), setting.spans_of(command.used))
         case PassOn():
             return pass_on(setting, state, command)
         case Otherwise():
+            state = capture_elided(setting, state)  # "read CO2 there and at tree 9, otherwise come home"
+            if ends_among_visits(state):
+                return _unless_ended(setting, state, command, following)
             runs_on = joint is None  # without a comma or a full stop nothing shows where the case ends
             said = setting.spans_of(command.used)
             return replace(otherwise(setting, state, said, in_all=command.in_all), runs_on=runs_on)
@@ -409,6 +417,23 @@ def _read(
             return failing(setting, state, command)
         case InTurn() | Correction() | Reordered() | WatchCommand():
             raise AssertionError("these are resolved before the clauses are read")
+
+
+def _unless_ended(
+    setting: Setting, state: DialogueState, command: Otherwise, following: Sequence[LinkedCommand]
+) -> DialogueState:
+    """Return the state behind visits in one of which the mission may have ended ("..., otherwise come home").
+
+    Raises:
+        NotComposed: What follows is done in each visit, or behind them.
+    """
+    if not following or not isinstance(following[0].command, Home | DriveCommand):
+        raise NotComposed(message("to which 'if' does it belong?", context="fault"))
+    path = state.choice or ()
+    choice = node_at(state.plan, path)
+    said = replace(choice, said=(*choice.said, *setting.spans_of(command.used)))
+    plan = with_node(state.plan, path, said)
+    return replace(state, plan=plan, scope=(), loop=None, choice=None, in_case=None)
 
 
 def _require_apart(clause: LinkedCommand) -> None:

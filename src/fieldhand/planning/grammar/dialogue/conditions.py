@@ -648,6 +648,16 @@ def _is_opposite(state: DialogueState, tests: AllTests) -> bool:
     return one == negated and one.quantity in ("", other.quantity) and one.place in (None, other.place)
 
 
+def ends_among_visits(state: DialogueState) -> bool:
+    """Return True if the last condition decides in each of several visits that the mission ends there."""
+    if state.choice is None:
+        return False
+    choice = as_choice(node_at(state.plan, state.choice))
+    visits = any(node_at(state.plan, state.choice[:end]).visits_each for end in range(len(state.choice)))
+    ends = choice is not None and bool(choice.then.children) and choice.then.children[-1].ends_plan
+    return visits and ends
+
+
 def otherwise(setting: Setting, state: DialogueState, said: Spans, *, in_all: bool = False) -> DialogueState:
     """Return the state in which the next commands are done if the last condition is false.
 

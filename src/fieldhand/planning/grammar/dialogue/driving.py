@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import cast
+from typing import Literal, cast
 
 from fieldhand.language import message
 from fieldhand.places import selectors as s
@@ -368,6 +368,9 @@ def ordered(setting: Setting, loop: p.ForEach, command: InAnOrder, said: Spans) 
     only_in_order = loop.order == "given" and known is None and len(loop.select.members) == 1
     if only_in_order and command.by and command.by != "reverse":
         loop = replace(loop, order="best")  # "in order from north to south"
+    if loop.optional and loop.order == "best" and command.by == "attribute" and not loop.reward:
+        first: Literal["highest", "lowest"] = "highest" if command.descending else "lowest"
+        return replace(loop, reward=command.attribute, reward_by=first, said=said)  # "as many as you can, oldest first"
     if loop.order == "given" or loop.optional or loop.at_most is not None:
         raise NotComposed(message("an order of places cannot be combined with a choice of how many", context="fault"))
     if command.by == "reverse":

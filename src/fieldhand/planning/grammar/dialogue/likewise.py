@@ -20,6 +20,7 @@ from fieldhand.planning.grammar.meaning import (
 )
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.places.groups import kind_in_area
+from fieldhand.planning.grammar.places.likewise import of_other_value
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.selections import (
     anchors,
@@ -28,7 +29,6 @@ from fieldhand.planning.selections import (
     as_ordered,
     as_some,
     as_top,
-    as_where,
     as_zone,
     chosen_from,
     counts_in_row,
@@ -170,16 +170,13 @@ def _of_another_value(state: DialogueState, described: s.Selector) -> s.Selector
     Raises:
         NotComposed: Their description does not have that attribute.
     """
-    new, before = as_where(described), None if state.where is None else state.where.selector
-    parts = () if before is None or before.relative else tuple(before.walk())
-    old = [
-        part
-        for part in map(as_where, parts)
-        if part is not None and new is not None and part.attribute == new.attribute and part.value != new.value
-    ]
-    if len(old) != 1 or new is None or before is None or old[0].test != "eq":
+    if state.where is None and state.lead is None and state.area is None:
+        return described  # "check the covered ones", before which none were named
+    before = None if state.where is None or state.where.selector.relative else state.where.selector
+    other = None if before is None else of_other_value(before, described)
+    if other is None:
         raise NotComposed(message("it is not clear which trees are meant", context="fault"))
-    return swapped(before, old[0], replace(new, of=old[0].of))
+    return other
 
 
 def _beside(setting: Setting, state: DialogueState, place: PlaceMeaning, used: int) -> PlaceMeaning:

@@ -1,4 +1,4 @@
-"""Points of ground without plants, and the same points of other ground: "do the same on the slope"."""
+"""Points of ground without plants, the same points of other ground ("do the same on the slope"), and its corners."""
 
 from __future__ import annotations
 
@@ -6,6 +6,9 @@ from dataclasses import replace
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.plans import with_selector
+from fieldhand.planning.grammar.places.sampling import bare_zone
+from fieldhand.planning.selections import as_corners, swapped
+from fieldhand.site.model import Site
 from fieldhand.task import plan as p
 
 
@@ -35,3 +38,33 @@ def on_ground(step: p.Node, zone: str) -> p.Node:
 
 def _in_zone(points: s.Selector, zone: str) -> s.Selector:
     return replace(points, zone=zone) if isinstance(points, s.PointsIn | s.Transect | s.Grid) else points
+
+
+def with_bare_corners(plan: p.Node, site: Site) -> p.Node:
+    """Return a plan at the corners of ground itself where its selectors mean those of ground without plants.
+
+    On a site without plants, corners of nothing are those of the site, unless the plan names other ground.
+    """
+    bounds = [zone.name for zone in site.zones_of("boundary")]
+    places = [node.selector for node in p.walk(plan) if node.selector is not None]
+    named = any(getattr(part, "zone", "") for place in places for part in place.walk())
+    return _with_bare_corners(plan, site, bounds[0] if len(bounds) == 1 and not site.trees and not named else "")
+
+
+def _with_bare_corners(step: p.Node, site: Site, whole: str) -> p.Node:
+    if step.act is not None:
+        return step.act if step.act.at is None else replace(step.act, at=_in_bare_corners(step.act.at, site, whole))
+    if step.selector is not None:
+        step = with_selector(step, _in_bare_corners(step.selector, site, whole))
+    return step.with_children([_with_bare_corners(child, site, whole) for child in step.children])
+
+
+def _in_bare_corners(places: s.Selector, site: Site, whole: str) -> s.Selector:
+    for part in tuple(places.walk()):
+        corners = as_corners(part)
+        if corners is None or corners.zone:
+            continue
+        zone = whole if corners.of == s.Trees() else bare_zone(corners.of, site)
+        if zone:
+            places = swapped(places, part, s.Corners(which=corners.which, zone=zone))
+    return places

@@ -20,7 +20,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     with_selector,
 )
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, done_at, with_step
-from fieldhand.planning.grammar.meaning import Again, DriveCommand, PlaceMeaning
+from fieldhand.planning.grammar.meaning import Again, DriveCommand, PlaceMeaning, wait_thing
 from fieldhand.planning.grammar.places.sampling import bare_zone
 from fieldhand.planning.selections import (
     are_rows,
@@ -117,14 +117,23 @@ def done_more_times(setting: Setting, state: DialogueState, command: Again) -> D
         raise NotComposed(message("it is not clear from which place on", context="fault"))
     said, names = setting.spans_of(command.used), _Names(state.readings)
     last = replace(state, captured=None, loop=None, choice=None, things=())
-    if command.in_all:
+    rest = (p.Act(id="", action=wait_thing(command.rest_s).action, said=said),) if command.rest_s else ()
+    if command.in_all and not rest:
         every = p.Repeat(id="", times=command.times, body=p.InOrder(id="", steps=steps), said=said)
         return with_step(replace(last, plan=p.InOrder(id="", steps=before)), every)
-    body = p.InOrder(id="", steps=tuple(_renamed(step, names, said) for step in steps))
+    copies = tuple(_renamed(step, names, said) for step in steps)
     last = replace(last, readings=names.last)
-    if command.times == 1 and command.whole:
-        return replace(last, plan=replace(state.plan, steps=(*steps, *body.steps)))
-    return with_step(last, p.Repeat(id="", times=command.times, body=body, said=said))
+    if command.in_all:  # "three rounds, ten minutes apart" rests twice
+        plan = p.InOrder(id="", steps=(*before, *((*steps, *rest) if command.times == 2 else ())))
+        if command.times > 2:
+            body = p.InOrder(id="", steps=(*steps, *rest))
+            plan = p.InOrder(id="", steps=(*before, p.Repeat(id="", times=command.times - 1, body=body, said=said)))
+        return replace(last, plan=replace(plan, steps=(*plan.steps, *copies)))
+    if command.times == 1 and (command.whole or rest):
+        return replace(last, plan=replace(state.plan, steps=(*state.plan.steps, *rest, *copies)))
+    return with_step(
+        last, p.Repeat(id="", times=command.times, body=p.InOrder(id="", steps=(*rest, *copies)), said=said)
+    )
 
 
 def _last_stride(steps: Sequence[p.Node]) -> int:

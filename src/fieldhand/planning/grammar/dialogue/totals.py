@@ -7,7 +7,7 @@ from dataclasses import replace
 from fieldhand.language import message
 from fieldhand.planning.grammar.dialogue.plans import as_for_each
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, Spans, with_assumption
-from fieldhand.planning.grammar.meaning import Reported, Total
+from fieldhand.planning.grammar.meaning import Reported, Total, wait_seconds
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.task import plan as p
 
@@ -50,6 +50,8 @@ def _also_said(step: p.Node, said: Spans) -> p.Node:
 
 def _number(setting: Setting, node: p.Node, action: str) -> int | None:
     """Return the number of captures by an action, or by any; None if it depends on what the robot finds."""
+    if node.act is not None and wait_seconds(node.act.action) is not None:
+        return 0
     if node.act is not None:
         return node.act.count if action in ("", node.act.action) else 0
     inner = [_number(setting, child, action) for child in node.children]

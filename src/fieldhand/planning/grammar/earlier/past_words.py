@@ -43,8 +43,10 @@ def past_ranges(words: Sequence[Word], edges: Sequence[tuple[str, int, int]]) ->
     was = [start for category, start, _ in edges if category == "WAS"]
     found: set[int] = set()
     for category, first, last in edges:
-        if category == "PERIODPOSS":
+        if category in ("PERIODPOSS", "TOLDDONE"):
             found |= {*range(first, last)}
+        if category == "TELLSDONE":
+            found |= {*_clause_behind(words, first)}  # "we did rows 1 and 2 this morning"
         if category != "PERIOD":
             continue
         clause = _clause_before(words, first)
@@ -62,6 +64,11 @@ def _clause_before(words: Sequence[Word], at: int) -> range:
     while start > max(0, at - _FAR) and words[start - 1].kind not in _PARTING:
         start -= 1
     return range(start, at)
+
+
+def _clause_behind(words: Sequence[Word], at: int) -> range:
+    """Return the numbers of the words from one on, to the end of its clause."""
+    return range(at, next((k for k in range(at, len(words)) if words[k].kind in _PARTING), len(words)))
 
 
 def _describes(words: Sequence[Word], clause: range, verb: int) -> bool:

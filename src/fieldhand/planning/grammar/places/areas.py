@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import Any, cast
 
 from fieldhand.places import selectors as s
+from fieldhand.planning.english.naming import split
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Likewise, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
@@ -81,7 +82,14 @@ def in_the_far_north(inner: Nominal, side: Lex) -> Nominal | None:
     return None if inner.plural else extreme(side, inner)
 
 
-@construction("region: [DET] EDGE", cost=0.3)
+@construction("edge_word: noun=EDGE", cost=0.0, given=("site",))
+def edge_word(noun: Lex, site: Site) -> Lex | None:
+    """Compose "edge"; "fence" is none where a zone is called so, "the stock fence"."""
+    zones = (split(zone.name) for zone in site.zones if zone.kind != "boundary")
+    return None if any(name[-1:] == (noun.text,) for name in zones) else noun
+
+
+@construction("region: [DET] edge_word", cost=0.3)
 def edges() -> s.Selector:
     """Compose "the edges"."""
     return s.UnionOf(parts=tuple(s.Edge(side=side) for side in SIDES))

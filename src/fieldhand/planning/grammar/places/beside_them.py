@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import PlaceMeaning
+from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.site.model import Site
@@ -73,6 +73,38 @@ def with_those_beside(whole: PlaceMeaning, site: Site) -> PlaceMeaning | None:
         return None
     beside = [name for name in _next_in_row(plants, site) if name not in plants]
     parts = tuple(s.TreeIs(tree=name) for name in beside)
+    return PlaceMeaning(s.UnionOf(parts=(*whole.selector.members, *parts)), "several") if parts else None
+
+
+@construction(
+    "nearest_to_each: [ALSO] [OF] DET NEAREST inner=nominal", "nearest_to_each: [ALSO] AT DET NEAREST inner=nominal",
+    "nearest_to_each: [ALSO] [OF] DET NEAREST inner=nominal BESIDE IT",
+    "nearest_to_each: [ALSO] [OF] DET NEAREST inner=nominal NEXTTO IT",
+    "nearest_to_each: [ALSO] [OF] DET NEAREST inner=nominal AT IT", cost=0.1,
+)  # fmt: skip
+def nearest_to_each(inner: Nominal) -> s.Selector | None:
+    """Compose "the nearest healthy plant beside it"."""
+    return None if inner.plural or inner.single or inner.complete or inner.vague else inner.selector
+
+
+@construction(
+    "place: whole=place [COMMA] AND near=nearest_to_each", "place: whole=place TOGETHERWITH near=nearest_to_each",
+    cost=0.1, given=("site",),
+)  # fmt: skip
+def with_nearest_to_each(whole: PlaceMeaning, near: s.Selector, site: Site) -> PlaceMeaning | None:
+    """Compose "each cucumber with mildew and the nearest healthy plant beside it", each of them once."""
+    if whole.shape != "several" or not whole.each or whole.per is not None or whole.optional:
+        return None
+    plants = ids_of(whole.selector, site)
+    if not plants or len(plants) > _MOST or not plants <= set(site.by_id):
+        return None
+    found: list[str] = []
+    for plant in sorted(plants, key=lambda name: site.by_id[name].index):
+        there = ids_of(s.Nearest(to=s.TreeIs(tree=plant), adjacent=True, of=near), site)
+        if not there:
+            return None
+        found += [name for name in there if name not in plants and name not in found]
+    parts = tuple(s.TreeIs(tree=name) for name in found)
     return PlaceMeaning(s.UnionOf(parts=(*whole.selector.members, *parts)), "several") if parts else None
 
 

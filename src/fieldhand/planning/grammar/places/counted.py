@@ -96,7 +96,7 @@ def fills_rows(inner: Nominal, site: Site) -> bool:
     return bool(plants) and all(row <= plants for row in rows if row & plants)
 
 
-def row_itself(row: Row, site: Site) -> s.Selector:
+def row_itself(row: Row, site: Site) -> s.Rows:
     """Return a row by its name, and by its block if another block has a row of that name."""
     named = s.Rows(first=row.name, last=row.name)
     alike = [other for other in site.planting.rows if other.name == row.name]

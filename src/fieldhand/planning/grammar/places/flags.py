@@ -21,6 +21,23 @@ def is_so(flag: Lex) -> list[AttributeTest]:
     return [(name, "eq", value) for name, value in flag.value]
 
 
+@construction(
+    "attribute_test: UNDERIT [DET] flag=FLAGNOUN", "attribute_test: WITH [DET] flag=FLAGNOUN [ONTHEM]",
+    "attribute_test: [DET] flag=FLAGNOUN ONTHEM", "attribute_test: DET flag=FLAGNOUN", cost=0.4,
+)  # fmt: skip
+def has_it(flag: Lex) -> list[AttributeTest]:
+    """Compose "under covers" and "a cover on it" of "that have a cover on it", for what is covered."""
+    return is_so(flag)
+
+
+@construction("attribute_test: word=WITHOUT [DET] flag=FLAGNOUN [ONTHEM]", cost=0.4)
+@construction("attribute_test: LACKS [DET] flag=FLAGNOUN [ONTHEM]", cost=0.4)
+@construction("attribute_test: word=NOT UNDERIT [DET] flag=FLAGNOUN", cost=0.2)
+def has_it_not(flag: Lex, word: Lex | None = None) -> list[AttributeTest] | None:
+    """Compose "without a cover" and "no cover" of "that have no cover"."""
+    return None if word is not None and word.features.isdisjoint({"leaves_out", "denies"}) else is_not_so(flag)
+
+
 def is_not_so(flag: Lex) -> list[AttributeTest]:
     """Return the tests of "not grafted"."""
     return [(name, "eq", not value) for name, value in flag.value]

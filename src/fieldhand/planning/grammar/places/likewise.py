@@ -9,7 +9,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Likewise, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import chooses_from_trees, is_by_attribute
+from fieldhand.planning.selections import as_where, chooses_from_trees, is_by_attribute, swapped
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -62,10 +62,26 @@ def those_of_another_value(value: Lex, noun: Lex, each: Lex | None = None) -> li
     ]
 
 
+def of_other_value(before: s.Selector, described: s.Selector) -> s.Selector | None:
+    """Return trees with another value of the attribute by which those before are described; None if they are not."""
+    new = as_where(described)
+    parts = [part for part in map(as_where, before.walk()) if part is not None and part.test == "eq"]
+    old = [one for one in parts if new is not None and one.attribute == new.attribute and one.value != new.value]
+    return swapped(before, old[0], replace(new, of=old[0].of)) if new is not None and len(old) == 1 else None
+
+
 @construction("place: DET OTHER inner=nominal", cost=0.6)
 def other_ones_of_a_kind(inner: Nominal) -> PlaceMeaning | None:
     """Compose "the other basil plants", of which some were named before."""
     if not inner.plural or inner.single or inner.complete or not is_by_attribute(inner.selector):
+        return None
+    return PlaceMeaning(inner.selector, "several", like=Likewise("rest"))
+
+
+@construction("place: DET REMAINING inner=nominal", "place: EACH DET REMAINING inner=nominal", cost=0.4)
+def remaining_ones(inner: Nominal) -> PlaceMeaning | None:
+    """Compose "the remaining tomatoes", of which some were named or done before."""
+    if not inner.plural or inner.single or inner.complete:
         return None
     return PlaceMeaning(inner.selector, "several", like=Likewise("rest"))
 
@@ -147,10 +163,19 @@ def its() -> PlaceMeaning:
 @construction(
     "place: [DET] [n=count] noun=TREE EACHSIDE [OF] [to=place]",
     "place: [DET] [n=count] noun=NEIGHBOUR EACHSIDE [OF] [to=place]",
+    "place: DET noun=ONE EACHSIDE OF to=place",
+    "place: DET noun=ONE EACHSIDE to=here",
+    "place: DET [n=count] noun=TREE DIRECTLY BOTHWAYS to=place",
+    "place: DET noun=ONE DIRECTLY BOTHWAYS to=place",
+    "place: DET [n=count] noun=TREE DIRECTLY BOTHWAYS it=IT",
+    "place: DET noun=ONE DIRECTLY BOTHWAYS it=IT",
     cost=0.2,
 )
-def on_each_side(n: int = 2, to: PlaceMeaning | None = None, noun: Lex | None = None) -> PlaceMeaning | None:
-    """Compose "the trees on either side of it": the next one of its row to each side."""
+def on_each_side(
+    n: int = 2, to: PlaceMeaning | None = None, noun: Lex | None = None, it: Lex | None = None
+) -> PlaceMeaning | None:
+    """Compose "the trees on either side of it" and "the one before and after it": the next of its row to each side."""
+    del it
     if n != 2 or (to is not None and to.shape not in ("one", "here")):
         return None
     origin = s.Here() if to is None else to.selector

@@ -44,6 +44,12 @@ def of_that_planting(
     return [that_pass(test, inner or s.Trees()) for test in tests]
 
 
+@construction("nominal: WHATEVER [which_is] when=PLANTEDWHEN", cost=0.2, given=("site",))
+def whatever_was_planted(when: Lex, site: Site) -> list[Nominal]:
+    """Compose "what was sown before April"."""
+    return [Nominal(that_pass(test, s.Trees()), plural=True, tested=True) for test in _tests(when.value, site)]
+
+
 @construction(
     "nominal: rank=PLANTEDRANK inner=nominal", "nominal: inner=nominal [which_is] rank=PLANTEDRANK",
     cost=0.1, given=("site",),

@@ -300,18 +300,21 @@ def from_the_end(chosen: Chosen, noun: Lex | None = None, each: Lex | None = Non
     "chosen: chosen=chosen in_ DET noun=FINISH",
     "chosen: chosen=chosen in_ DET at=row_end",
     "chosen: chosen=chosen in_ each=EACH noun=FINISH",
+    "chosen: chosen=chosen in_ DET two=count noun=FINISH",
     cost=0.0,
 )
 def at_the_end(
-    chosen: Chosen, noun: Lex | None = None, at: Positions | None = None, each: Lex | None = None
+    chosen: Chosen, noun: Lex | None = None, at: Positions | None = None, each: Lex | None = None, two: int = 2
 ) -> Chosen | None:
-    """Compose "two trees at the southern end" and "tree at each end"."""
+    """Compose "two trees at the southern end", "tree at each end" and "trees at the two ends"."""
     inner, n = chosen.inner, chosen.count
+    if two != 2:
+        return None
     if (first := _as_positions(chosen)) is not None and at is not None and first == Positions(BOTH_ENDS[:1]):
         return replace(chosen, choice=Choice("at", replace(at, noun="")))
     if chosen.choice is not None or inner.kind != "tree" or not chooses_from_trees(inner.selector):
         return None
-    if n is None and inner.plural and (noun is None or not noun.plural):
+    if n is None and inner.plural and each is None and (noun is None or not noun.plural):
         return None
     ends = noun is not None and (noun.plural or each is not None)
     n = (n or 1) // (2 if ends and each is None and n == 2 else 1)

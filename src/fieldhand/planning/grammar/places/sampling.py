@@ -39,10 +39,17 @@ _MOST_PERCENT = 100.0
 
 @dataclass(frozen=True, slots=True)
 class SamplingPath:
-    """A path across an area along which samples are taken: its form, and the number of legs of a zigzag."""
+    """A path across an area along which samples are taken.
+
+    Attributes:
+        shape: Its form.
+        legs: Number of legs of a zigzag.
+        off_m: Distance from an edge in metres; None for the usual one.
+    """
 
     shape: PathShape
     legs: int
+    off_m: float | None = None
 
     def over(self, area: s.Selector | None, site: Site, *, count: int = 0, apart_m: float = 0.0) -> s.Selector | None:
         """Return so many places, or places so far apart, along the path across an area, or across the site.
@@ -51,7 +58,8 @@ class SamplingPath:
         """
         if self.shape == "edge":
             known = None if area is None else as_zone(area)
-            return s.Transect(count=count, apart_m=apart_m, shape="edge", zone="" if known is None else known.zone)
+            edge = s.Transect(count=count, apart_m=apart_m, shape="edge", zone="" if known is None else known.zone)
+            return edge if self.off_m is None else replace(edge, off_m=self.off_m)
         ground = bare_ground(area, site)
         if ground is not None:
             if ground.left_out and not apart_m:
@@ -316,6 +324,30 @@ def along_edge(
     zone = as_zone(area)
     whole = zone is not None and not zone.outside and not zone.margin_m and zone.of == s.Trees()
     return (SamplingPath("edge", 1), area) if whole else None
+
+
+@construction(
+    "off_edge: far=amount FROM [DET] EDGE",
+    "off_edge: far=amount CLEAROF [DET] EDGE",
+    "off_edge: far=amount CLEAROF IT",
+    "off_edge: KEEPOFF far=amount CLEAROF IT",
+    "off_edge: KEEPOFF far=amount CLEAROF [DET] EDGE",
+    cost=0.1,
+)
+def off_edge(far: Amount) -> float | None:
+    """Compose "4 metres from the edge" and "keeping 4 m away from it"."""
+    return far.number if far.unit == "metres" else None
+
+
+@construction("path_over: along=path_over [COMMA] [AT] off=off_edge", cost=0.1)
+def along_edge_at_distance(
+    along: tuple[SamplingPath, s.Selector | None], off: float
+) -> tuple[SamplingPath, s.Selector | None] | None:
+    """Compose "once round the pond, 4 metres from its edge"."""
+    path, where = along
+    if not isinstance(path, SamplingPath) or path.shape != "edge" or path.off_m is not None:
+        return None
+    return replace(path, off_m=off), where
 
 
 @construction(

@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import Literal
 
 from fieldhand.places import selectors as s
+from fieldhand.planning.english.naming import split
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.chosen import Choice
@@ -37,6 +38,10 @@ _QUALITIES = (
     "rating",
     "grade",
 )
+#: Words in the names of attributes that say where a plant stands, or which one it is.
+_OF_THE_GROUND = frozenset(
+    {"row", "position", "number", "id", "column", "slot", "index", "no", "nr", "lat", "lon", "year"}
+)
 #: Shares of the trees, of which each is offered as those that a word means.
 _SHARES = (0.05, 0.10, 0.25)
 #: Words in the names of attributes that say how high a place lies.
@@ -52,12 +57,19 @@ def qualities(site: Site) -> list[str]:
     return [name for name in hinted if len(_numbers(name, site)) >= _FEWEST_VALUES]
 
 
+def _measures(site: Site) -> list[str]:
+    """Return the attributes of a site that are numbers, but for those that say where a plant stands."""
+    names = [name for name in site.attributes if not _OF_THE_GROUND & {*split(name)}]
+    return [name for name in names if len({*_numbers(name, site)}) >= _FEWEST_VALUES]
+
+
 @construction("chosen_by: rank=SUPER", cost=0.3, given=("site",))
 def by_quality(rank: Lex, site: Site) -> list[Choice] | None:
-    """Compose "worst" without an attribute."""
+    """Compose "worst" without an attribute; where none says how good a plant is, by the most or the least of any."""
     if rank.value[0] or "judges" not in rank.features:
         return None
-    return [Choice("best", (name, rank.value[1])) for name in qualities(site)] or None
+    known = [Choice("best", (name, rank.value[1])) for name in qualities(site)]
+    return known or [Choice("best", (name, least)) for name in _measures(site) for least in (False, True)] or None
 
 
 @construction("VAGUEADJ: TOO word=VAGUEADJ", "VAGUEADJ: word=VAGUEADJ ENOUGH", cost=0.0)

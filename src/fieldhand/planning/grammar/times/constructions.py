@@ -127,10 +127,22 @@ def one_hour() -> float:
     return 60.0
 
 
-@construction("minutes: HALF AN HOURS", cost=0.0)
+@construction("minutes: QUARTER OF AN HOURS", "minutes: QUARTER HOURS", cost=0.0)
+def quarter_of_an_hour() -> float:
+    """Compose "a quarter of an hour"."""
+    return 15.0
+
+
+@construction("minutes: HALF AN HOURS", "minutes: HALF HOURS", cost=0.0)
 def half_an_hour() -> float:
     """Compose "half an hour"."""
     return 30.0
+
+
+@construction("lasting: FOR by=minutes", "lasting: FOR THE by=minutes", cost=0.0)
+def lasting(by: float) -> float:
+    """Compose "for half an hour", which is no time of the mission."""
+    return by
 
 
 @construction("daytime: by=minutes BEFORE sun=SUN", cost=0.1)
@@ -172,37 +184,29 @@ def at_about(at: DayTime) -> TimePart:
     return TimePart(at=(at,), late_min=ROUGHLY_MIN)
 
 
-@construction("part: first=part AND at=daytime", cost=0.2)
-def and_at(first: TimePart, at: DayTime) -> TimePart | None:
-    """Compose "at 6 am and 6 pm"."""
-    return replace(first, at=(*first.at, at)) if first.at and first == TimePart(at=first.at) else None
+@construction("further: [COMMA] AND", "further: [COMMA] ANDAGAIN", "further: COMMA", cost=0.0)
+def further() -> str:
+    """Compose ", and once more" between times of a day."""
+    return "and"
 
 
-@construction("part: first=part AND then=part", cost=0.2)
-def and_at_another(first: TimePart, then: TimePart) -> TimePart | None:
-    """Compose "at 6 am and at 6 pm"."""
-    if not (first.at and then.at and first == TimePart(at=first.at) and then == TimePart(at=then.at)):
-        return None
-    return TimePart(at=(*first.at, *then.at))
+@construction("part: first=part further at=daytime", "part: first=part further then=part", cost=0.2)
+@construction("part: first=bare further at=daytime", cost=0.2)
+def and_at(first: TimePart, at: DayTime | None = None, then: TimePart | None = None) -> TimePart | None:
+    """Compose "at 6 am, noon and 6 pm" and "at 7 in the morning and once more at 2 pm"."""
+    return first.joined(TimePart(at=(at,)) if at is not None else then or TimePart())
 
 
-@construction("daytimes: one=daytime COMMA other=daytime", cost=0.1)
-def two_times(one: DayTime, other: DayTime) -> tuple[DayTime, ...]:
-    """Compose "6 am, noon" in a list."""
-    return (one, other)
+@construction("part: ANDAGAIN then=part", cost=0.3)
+def and_again_at(then: TimePart) -> TimePart | None:
+    """Compose "and again at 2 pm" behind what is done at the first time."""
+    return replace(then, further=True) if then == TimePart(at=then.at) and then.at else None
 
 
-@construction("daytimes: known=daytimes COMMA other=daytime", cost=0.1)
-def more_times(known: tuple[DayTime, ...], other: DayTime) -> tuple[DayTime, ...]:
-    """Compose longer lists."""
-    return (*known, other)
-
-
-@construction("part: AT known=daytimes AND last=daytime", "part: AT known=daytimes COMMA AND last=daytime", cost=0.0)
-@construction("part: known=daytimes AND last=daytime", "part: known=daytimes COMMA AND last=daytime", cost=0.1)
-def at_times(known: tuple[DayTime, ...], last: DayTime) -> TimePart | None:
-    """Compose "at 6 am, noon and 6 pm"."""
-    return _at_all((*known, last))
+@construction("bare: sun=SUN", cost=0.0)
+def bare_sun(sun: Lex) -> TimePart:
+    """Compose "sunrise" as the first of several times."""
+    return TimePart(at=(DayTime(sun=sun.value),))
 
 
 @construction("hour_list: one=NUM COMMA other=NUM", cost=0.1)
@@ -523,10 +527,11 @@ def every_part(when: Lex) -> TimePart:
     return replace(_within(when.value), repeats=True)
 
 
-@construction("part: TWICEDAILY", cost=0.0)
-def twice_daily() -> TimePart:
-    """Compose "twice a day", whose times are said beside it."""
-    return TimePart(repeats=True, times_a_day=2)
+@construction("part: TWICEDAILY", "part: n=NUM TIMESDAILY", cost=0.0)
+def twice_daily(n: Lex | None = None) -> TimePart | None:
+    """Compose "twice a day" and "three times a day", whose times are said beside it."""
+    times = 2 if n is None else n.value
+    return TimePart(repeats=True, times_a_day=int(times)) if times == int(times) and times > 1 else None
 
 
 @construction("part: EVERY n=ORD when=DAYPART", "part: EVERY n=NUM when=DAYPARTS", cost=0.0)
@@ -707,13 +712,14 @@ def for_some_weeks(n: Lex, unit: Lex) -> TimePart | None:
 # --- several parts ------------------------------------------------------------------------------------------------
 
 
-@construction("part: RUN said=part", "part: RUN COMMA said=part", cost=0.0)
+@construction("part: RUN [OVER] said=part", "part: RUN [OVER] COMMA said=part", cost=0.0)
 def told_by_itself(said: TimePart) -> TimePart:
     """Compose "do this every morning" and "start at 6 am"."""
     return said
 
 
 @construction("part: one=part other=part", "part: one=part COMMA other=part", "part: one=part AND other=part", cost=0.1)
+@construction("part: one=part COLON other=part", cost=0.1)
 def both(one: TimePart, other: TimePart) -> TimePart | None:
     """Compose "every day at 6 am until Friday"."""
     if one.at and other.at:

@@ -35,6 +35,8 @@ class TimePart:
         disputed: True if a time is said that lies in another part of the day than the one that is said.
         needs_day: True if it is no time without a day ("first thing").
         times_a_day: Number of times of the day that must be said ("twice a day"); 0 if not said.
+        awaits: True if the request says that the robot waits for the time somewhere ("wait at the gate until 6 pm").
+        further: True for another time of the same day, behind what is done at the first ("and again at 2 pm").
     """
 
     repeats: bool = False
@@ -57,9 +59,13 @@ class TimePart:
     disputed: bool = False
     times_a_day: int = 0
     needs_day: bool = False
+    further: bool = False
+    awaits: bool = False
 
     def __and__(self, other: TimePart) -> TimePart | None:
         """Return both parts together; None if they contradict each other."""
+        if other.further:
+            return self.joined(replace(other, further=False))
         merged: dict[str, object] = {}
         for field in fields(self):
             mine, theirs = getattr(self, field.name), getattr(other, field.name)
@@ -79,6 +85,28 @@ class TimePart:
         if both is None or window is None or {self.half, other.half} != {"", half} or both._bounds or not both.at:
             return None
         return replace(both, window=window, half=half, disputed=True)
+
+    def joined(self, other: TimePart) -> TimePart | None:
+        """Return a part of several times of a day: those of both parts; None if one says another thing.
+
+        The first may say the days, which are those of the second as well.
+        """
+        first, then = self._at_times(), other._at_times()
+        if first is not None and then is not None and first.repeats and not first.weekdays and first.every_days < 2:
+            then = replace(
+                then, repeats=False, every_days=0 if then.every_days == 1 else then.every_days
+            )  # "and every evening at six"
+        if first is None or then is None or then != TimePart(at=then.at) or first._bounds or first.every_min:
+            return None
+        both = (*first.at, *then.at)
+        return replace(first, at=both) if len({*both}) == len(both) else None
+
+    def _at_times(self) -> TimePart | None:
+        """Return the part with times of the clock, without the part of the day that they are in; None without times."""
+        timed = self._on_the_clock()
+        if timed is None or not timed.at or timed.disputed or timed.late_min:
+            return None
+        return replace(timed, window=None, half="")
 
     @property
     def _bounds(self) -> tuple[DayTime, ...]:
@@ -119,6 +147,8 @@ class TimePart:
         """The times of day to choose from, if it says no time."""
         if (hours := self._hours) and not (self.half or self._usual_half):
             return (_clock(hours[0], "am"), _clock(hours[0], "pm"))
+        if self.every_min and self.done_by is not None and not (self.at or self.not_before or self.window or hours):
+            return tuple(at for at in _USUAL if at.clock < (self.done_by.clock or "18:00"))  # "every hour until 6 pm"
         if hours or self.at or self._bounds or self.every_min:
             return ()
         if self.choices or self.takes is not None:
@@ -187,9 +217,10 @@ class TimePart:
         whole = self._resolved()
         if whole is None:
             return None
-        if not whole.repeats:
-            return whole._once(said, zone)
-        return whole._standing(said, zone)
+        if whole.day and (len(whole.at) > 1 or whole.every_min) and not (whole.first_day or whole.last_day):
+            last = whole.day if whole.day[:1] in "-2" else "today"  # which counts from the first day
+            whole = replace(whole, repeats=True, day="", first_day=whole.day, last_day=last)
+        return whole._standing(said, zone) if whole.repeats else whole._once(said, zone)
 
     def _resolved(self) -> TimePart | None:
         """Return the part with a day of the week as a single day, or as days of a standing mission."""
@@ -221,10 +252,6 @@ class TimePart:
         return bool(self.day or self.weekdays)
 
     def _once(self, said: tuple[Span, ...], zone: str) -> Timing | None:
-        if len(self.at) > 1 and self.day and not (self._bounds or self.first_day or self.last_day):
-            last = self.day if self.day[:1] in "-2" else "today"  # which counts from the first day
-            several = replace(self, repeats=True, day="", first_day=self.day, last_day=last)
-            return several._standing(said, zone)
         if len(self.at) > 1 or self.first_day or self.last_day or self.every_days or self.every_min:
             return None
         begin = self.at[0] if self.at else self.not_before

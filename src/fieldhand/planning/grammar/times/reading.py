@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
@@ -14,6 +14,7 @@ from fieldhand.planning.grammar.chart import Chart, PhraseEdge
 from fieldhand.planning.grammar.times.constructions import GRAMMAR
 from fieldhand.planning.grammar.times.lexicon import time_edges
 from fieldhand.planning.grammar.times.meaning import TimePart
+from fieldhand.planning.grammar.times.waiting import AwaitedTime, awaited, waits_between
 from fieldhand.planning.grammar.times.windows import without_a_time
 from fieldhand.planning.planner import Answer
 from fieldhand.task.plan import Span
@@ -31,6 +32,11 @@ _PARTING = frozenset(
     {"then", "afterwards", "afterward", "next", "later", "finally", "again", "now", "immediately", "meanwhile"}
 )
 
+#: Words that end as verbs in the past do.
+_NOUNS_IN_ED = frozenset({"need", "bed", "seedbed", "shed", "seed", "weed", "reed", "feed", "red"})
+#: Words beside a time that belong to no clause that tells something.
+_JOINING = frozenset({"please", "and", "but", "then"})
+_DAY_MIN = 24 * 60
 
 #: Words behind which a part of this day may be past.
 _PAST = frozenset({"was", "were", "had", "did", "got", "been", "has", "have", "already"})
@@ -73,26 +79,39 @@ def without_times(words: Sequence[Word], earlier: frozenset[int] = frozenset()) 
         for phrase in _phrases(words)
         if _is_of_mission(phrase, words) and earlier.isdisjoint(range(phrase.start, phrase.end))
     ]
+    times = frozenset(token for phrase in phrases for token in range(phrase.start, phrase.end))
+    if any(waits_between(phrase, words, times) for phrase in phrases):
+        return None
+    waits = {phrase.start: wait for phrase in phrases if (wait := awaited(phrase, words, times)) is not None}
+    phrases = [replace(one, meaning=waits[one.start].part) if one.start in waits else one for one in phrases]
     part: TimePart | None = TimePart()
     for phrase in phrases:
+        if phrase.meaning.further and not _ends_clause(phrase, words):
+            return None  # "at 7 am read CO2, and again at 2 pm photograph row 3"
         part = None if part is None else part & phrase.meaning
-    if part is None or not phrases:
+    if part is None or not phrases or (part.awaits and part.repeats):
         return None
-    if part.every_min and not part.last_day and _says_how_often(words):
-        return None  # "every ten minutes, six times" is one mission
+    if part.every_min and not part.last_day and (_says_how_often(words) or _says_how_long(words, part.every_min)):
+        return None  # "every ten minutes, six times" and "every ten minutes for an hour" are one mission
     if sum(phrase.meaning.says_how_often for phrase in phrases) > 1:
         return None  # "photograph row 3 every day, and row 4 every Monday"
-    taken = frozenset(token for phrase in phrases for token in range(phrase.start, phrase.end))
+    taken = times | {token for wait in waits.values() for token in wait.dropped}
+    instead = {token: word for wait in waits.values() for token, word in wait.instead.items()}
     single = not part.repeats and len(part.weekdays) < 2
     if single and not all(_is_of_beginning(one, words, taken) for one in phrases):
         return None
     marks = {mark for phrase in phrases for mark in _marks_of(phrase, words)}
     return RequestTimes(
-        words=tuple(word for token, word in enumerate(words) if token not in taken | marks),
-        said=tuple((words[one.start].start, words[one.end - 1].end) for one in phrases),
+        words=tuple(instead.get(token, word) for token, word in enumerate(words) if token not in taken | marks),
+        said=tuple((words[_first(one, waits)].start, words[one.end - 1].end) for one in phrases),
         part=part,
         beside=tuple(span for phrase in phrases for span in _beside(phrase, words)),
     )
+
+
+def _first(phrase: PhraseEdge, waits: Mapping[int, AwaitedTime]) -> int:
+    """Return the number of the first word that says a time, or a wait for it."""
+    return waits[phrase.start].first if phrase.start in waits else phrase.start
 
 
 def _says_how_often(words: Sequence[Word]) -> bool:
@@ -103,6 +122,13 @@ def _says_how_often(words: Sequence[Word]) -> bool:
         texts[k + 1] == "times" and (texts[k] in vocabulary()["numbers"] or texts[k].isdecimal())
         for k in range(len(texts) - 1)
     )
+
+
+def _says_how_long(words: Sequence[Word], every_min: int) -> bool:
+    """Return True if words say a time of several intervals for which something is done: "for an hour"."""
+    chart = Chart(GRAMMAR, len(words), frozenset(), given={})
+    chart.parse(time_edges(words))
+    return any(every_min <= edge.meaning < _DAY_MIN for edge in chart.of_category("lasting"))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -147,6 +173,21 @@ def assumed_times(part: TimePart) -> tuple[str, ...]:
     if (window := part.takes) is not None:
         return (window.assumption if part.window is not None else without_a_time(),)
     return ()
+
+
+def warned_times(part: TimePart) -> tuple[str, ...]:
+    """Return what must be confirmed of a time for which the request says that the robot waits, as sentences."""
+    if not part.awaits or part.not_before is None:
+        return ()
+    at = say_day_time(part.not_before)
+    return (
+        message(
+            "The robot does not drive first and then wait for a time of the clock: the mission begins at {time}, with"
+            " the drive there.",
+            context="assumption",
+            time=at,
+        ),
+    )
 
 
 def with_answer(part: TimePart, answers: Sequence[Answer]) -> tuple[TimePart, Answer] | None:
@@ -223,7 +264,9 @@ def _is_of_mission(phrase: PhraseEdge, words: Sequence[Word]) -> bool:
     before = words[phrase.start - 1] if phrase.start else None
     if before is None or before.kind in ("stop", "comma"):
         return True
-    return before.norm not in _OF_SOMETHING_ELSE and not (before.norm.endswith("ed") and before.norm != "need")
+    return before.norm not in _OF_SOMETHING_ELSE and not (
+        before.norm.endswith("ed") and before.norm not in _NOUNS_IN_ED
+    )
 
 
 def _is_of_beginning(phrase: PhraseEdge, words: Sequence[Word], taken: frozenset[int]) -> bool:
@@ -239,6 +282,11 @@ def _is_of_beginning(phrase: PhraseEdge, words: Sequence[Word], taken: frozenset
     if phrase.meaning.day == "today" and phrase.meaning.takes is not None and any(w.norm in _PAST for w in before):
         return False  # "the trees that were dry this morning"
     return not sentences and not any(_parts(before, k) for k in range(len(before)))
+
+
+def _ends_clause(phrase: PhraseEdge, words: Sequence[Word]) -> bool:
+    """Return True if no command follows a time in its sentence."""
+    return phrase.end == len(words) or words[phrase.end].kind == "stop"
 
 
 def _parts(words: Sequence[Word], k: int) -> bool:
@@ -261,10 +309,10 @@ def _marks_of(phrase: PhraseEdge, words: Sequence[Word]) -> Iterator[int]:
 
 
 def _beside(phrase: PhraseEdge, words: Sequence[Word]) -> tuple[Span, ...]:
-    """Return the ranges of the words directly before and behind a time."""
+    """Return the ranges of the words directly before and behind a time that belong to the same clause."""
     near = (phrase.start - 1, phrase.end)
     return tuple(
         (words[token].start, words[token].end)
         for token in near
-        if 0 <= token < len(words) and words[token].kind not in ("stop", "comma") and words[token].norm != "please"
+        if 0 <= token < len(words) and words[token].kind not in ("stop", "comma") and words[token].norm not in _JOINING
     )

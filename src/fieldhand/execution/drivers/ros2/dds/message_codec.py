@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from cyclonedds.idl import make_idl_struct, types
 
 from fieldhand.execution.drivers.ros2.dds.names import wire_type
 from fieldhand.execution.drivers.ros2.interfaces import FieldType, Interfaces
-from fieldhand.execution.drivers.ros2.transport import MOST_BYTES, RosMessage
+from fieldhand.execution.drivers.ros2.transport import RosMessage, most_bytes
 
 #: Suffix that no ROS field name has; avoids Python keywords and attributes such as ``from`` and ``serialize``.
 _END = "_"
@@ -68,7 +69,7 @@ class MessageCodec:
         if (message, with_header) not in self._outer:
             made = self._idl_type(message, with_header=with_header)
             # One malformed message must not hide the valid ones taken with it.
-            made.deserialize = classmethod(_deserialize)
+            made.deserialize = classmethod(partial(_deserialize, message=message))
             self._outer[message, with_header] = made
         return self._outer[message, with_header]
 
@@ -128,9 +129,11 @@ class MessageCodec:
         return tuple(value if kind.primitive else (self.decode(kind.base, v) for v in value))
 
 
-def _deserialize(cls: Any, data: bytes, has_header: bool = True, use_version_2: bool | None = None) -> Any:
-    if len(data) > MOST_BYTES:
-        return Unreadable(f"it has {len(data)} bytes, more than {MOST_BYTES}")
+def _deserialize(
+    cls: Any, data: bytes, has_header: bool = True, use_version_2: bool | None = None, *, message: str
+) -> Any:
+    if len(data) > (most := most_bytes(message)):
+        return Unreadable(f"it has {len(data)} bytes, more than {most}")
     try:
         return cls.__idl__.deserialize(data, has_header=has_header, use_version_2=use_version_2)
     except Exception as error:  # noqa: BLE001 - the bytes come from anyone, and the library raises whatever it meets

@@ -9,7 +9,7 @@ from rclpy.serialization import deserialize_message
 
 from fieldhand.execution.drivers.ros2.rclpy import message_types
 from fieldhand.execution.drivers.ros2.rclpy.discovery import RclpyDiscovery
-from fieldhand.execution.drivers.ros2.transport import MOST_BYTES, RosMessage
+from fieldhand.execution.drivers.ros2.transport import RosMessage, most_bytes
 
 RCLError = rclpy_implementation.RCLError
 
@@ -47,8 +47,9 @@ class RclpySubscription:
             self._node.destroy_subscription(self._subscription)
 
     def _read(self, data: bytes) -> RosMessage | None:
-        if len(data) > MOST_BYTES:
-            why = f"it has {len(data)} bytes, more than {MOST_BYTES}"
+        most = most_bytes(self._message)
+        if len(data) > most:
+            why = f"it has {len(data)} bytes, more than {most}"
         else:
             try:
                 return message_types.from_ros(self._message, deserialize_message(data, self._subscription.msg_type))

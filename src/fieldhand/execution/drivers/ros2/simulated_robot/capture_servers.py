@@ -32,6 +32,7 @@ class CaptureCall:
         platform: Makes the capture.
         places: Finds the place of a request.
         report: Called after each capture.
+        images: Returns the images of a reply by path, for its type.
 
     Raises:
         Ros2Error: A path of the binding does not exist in its type.
@@ -45,13 +46,16 @@ class CaptureCall:
         platform: SimulatedPlatform,
         places: PlaceLookup,
         report: CaptureCallback,
+        *,
+        images: Callable[[str], Mapping[str, object]] = lambda _: {},
     ) -> None:
+        self._images = images
         self.action, self.call, self.platform = action, call, platform
         self._interfaces, self._places, self._report = interfaces, places, report
         self._answer = f"{call.type}_{'Result' if call.kind == 'action' else 'Response'}"
         for binding in call.readings.values():
             interfaces.field_at(self._answer, binding.path)
-        for path in filter(None, (call.success, call.message)):
+        for path in filter(None, (call.success, call.message, *call.images.values())):
             interfaces.field_at(self._answer, path)
 
     def begin(self, request: RosMessage, over: Callable[[RosMessage, bool], None]) -> None:
@@ -77,7 +81,7 @@ class CaptureCall:
             values[binding.path] = field_value(self._interfaces, self._answer, binding, progress.readings.get(name))
             if values[binding.path] is None:
                 return self.failure(f"there is no reading of {name}"), False
-        return message_of(values), True
+        return message_of({**values, **self._images(self._answer)}), True
 
     def failure(self, why: str) -> RosMessage:
         """Return a reply that reports a failure, as far as its type has fields for it."""

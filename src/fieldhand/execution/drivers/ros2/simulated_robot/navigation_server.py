@@ -15,6 +15,7 @@ from fieldhand.execution.drivers.ros2.map_frame import degrees_to_map, map_to_de
 from fieldhand.execution.drivers.ros2.simulated_robot.action_server import ServerGoal
 from fieldhand.execution.drivers.ros2.simulated_robot.controller_server import ControllerServer
 from fieldhand.execution.drivers.ros2.simulated_robot.place_lookup import PlaceLookup
+from fieldhand.execution.drivers.ros2.simulated_robot.pose_messages import listed, numbers, part, yaw_of_quaternion
 from fieldhand.execution.drivers.ros2.simulated_robot.robot_platform import Point, SimulatedPlatform, length_m
 from fieldhand.execution.drivers.ros2.transport import RosMessage
 from fieldhand.robot.bindings import Datum, Ros2Bindings
@@ -29,6 +30,8 @@ _OUTSIDE, _REACH_M = 204, 20_000.0
 _FEEDBACK_S, _OFF, _MOST_POSES = 0.1, 0.1, 10_000
 #: Duration of a recovery in seconds.
 _RECOVERY_S = 8.0
+#: Distance in metres from the robot within which the first poses of a path count as passed.
+_PASSED_M = 0.05
 #: Distance in metres from a leg within which the robot is on it.
 _ON_M = 1e-3
 
@@ -101,6 +104,8 @@ class NavigationServer:
         if self._type.endswith("/FollowGPSWaypoints"):
             position = {"latitude": place.lat, "longitude": place.lon}
             return {"gps_poses": ({"position": position, "orientation": orientation(0.0)},)}
+        if self._type.endswith("/FollowPath"):
+            return {"path": {"header": header, "poses": (pose,)}}
         return {"poses": (pose,)}
 
     def abort_unexplained(self, times: int = 1) -> None:
@@ -116,6 +121,8 @@ class NavigationServer:
         self._goal = self._recovering_s = None
         if self._controller is not None:
             self._controller.leave()
+        elif self._type.endswith("/FollowPath") and self._platform.driving:
+            self._stop_now()  # a controller follows nothing any more
 
     def rejection_reason(self, goal: RosMessage) -> str | None:
         if not self.active:
@@ -136,14 +143,16 @@ class NavigationServer:
             before.aborted({})
         elif self._platform.driving:
             self._stop_now()  # the path that a navigator left which has died
-        corners = self._corners(goal.goal_message)
+        corners, heading = self._corners(goal.goal_message), self._heading(goal.goal_message)
         here = self._platform.position
+        while len(corners) > 1 and math.dist(here.xy, corners[0]) < _PASSED_M:
+            corners = corners[1:]  # a controller prunes what is behind the robot
         self._goal, self._begun_s, self._feedback_s = goal, self._now(), -math.inf
         if any(math.dist(here.xy, corner) > _REACH_M for corner in corners):
             self._end(Progress(state="failed", what="the goal lies outside of the map"), _OUTSIDE)
             return
         self._through, self._legs, self._leg = corners, tuple(pairwise((here.xy, *corners))), 0
-        self._platform.drive(corners, self._places.nearest(corners[-1]), self._speed(), self._over)
+        self._platform.drive(corners, self._places.nearest(corners[-1]), self._speed(), self._over, heading_deg=heading)
         if self._controller is not None:
             self._controller.follow(self.abort_unexplained)
         if self._unexplained:
@@ -180,14 +189,9 @@ class NavigationServer:
         if "gps_poses" in goal:
             if goal.get("number_of_loops"):
                 raise Ros2Error("this robot drives no loops", advice="send the waypoints once")
-            degrees = [_geographic(pose) for pose in _listed(goal["gps_poses"])[_first(goal) :]]
+            degrees = [_geographic(pose) for pose in listed(goal["gps_poses"])[_first(goal) :]]
         else:
-            followed = goal.get("path")
-            goal = followed if isinstance(followed, Mapping) else goal
-            goal_message: object = goal.get("poses", (goal.get("pose"),))
-            # From Kilted on, the poses are wrapped in a message with its own header.
-            goal_message = goal_message.get("goals") if isinstance(goal_message, Mapping) else goal_message
-            degrees = [self._in_map(pose) for pose in _listed(goal_message)]
+            degrees = [self._in_map(pose) for pose in self._poses(goal)]
         if not degrees:
             raise Ros2Error("the goal has no poses")
         if len(degrees) > _MOST_POSES:
@@ -195,13 +199,30 @@ class NavigationServer:
         east_north = self._site.projection.metres([lat for lat, _ in degrees], [lon for _, lon in degrees])
         return tuple((float(x), float(y)) for x, y in east_north)
 
+    def _heading(self, goal: RosMessage) -> float:
+        """Return the heading at the end of a valid goal, in degrees clockwise from north."""
+        if "gps_poses" in goal:
+            # Nav2 interprets it in its map frame, whose axes point east and north (REP 105).
+            axis_deg, last = 90.0, part(listed(goal["gps_poses"])[-1], "orientation")
+        else:
+            axis_deg, last = self._datum.heading_deg, part(part(self._poses(goal)[-1], "pose"), "orientation")
+        return (axis_deg - math.degrees(yaw_of_quaternion(last))) % 360.0
+
+    @staticmethod
+    def _poses(goal: RosMessage) -> Sequence[object]:
+        followed = goal.get("path")
+        goal = followed if isinstance(followed, Mapping) else goal
+        poses: object = goal.get("poses", (goal.get("pose"),))
+        # From Kilted on, the poses are wrapped in a message with its own header.
+        return listed(poses.get("goals") if isinstance(poses, Mapping) else poses)
+
     def _in_map(self, pose: object) -> tuple[float, float]:
-        header, inner = _part(pose, "header"), _part(pose, "pose")
+        header, inner = part(pose, "header"), part(pose, "pose")
         frame = header.get("frame_id")
         if frame != self._binding.frame:
             raise Ros2Error(f"the pose is in frame {frame!r}; the map is {self._binding.frame!r}")
-        x, y, _ = _numbers(_part(inner, "position"), "x", "y", "z")
-        _upright(_part(inner, "orientation"))
+        x, y, _ = numbers(part(inner, "position"), "x", "y", "z")
+        _upright(part(inner, "orientation"))
         return map_to_degrees(self._datum, (x, y))
 
     def _over(self, progress: Progress) -> None:
@@ -213,7 +234,10 @@ class NavigationServer:
         self._end(progress, _CODES.get(progress.fault, _OTHERWISE))
 
     def _end(self, progress: Progress, code: int) -> None:
-        goal, self._goal = self._goal, None
+        goal = self._goal
+        if goal is not None and progress.state == "succeeded":
+            goal.feedback(self._feedback(goal, self._now()))
+        self._goal = None
         if goal is None:
             return
         self._report(progress.state, progress)
@@ -297,34 +321,18 @@ def _first(goal: RosMessage) -> int:
 
 
 def _geographic(pose: object) -> tuple[float, float]:
-    lat, lon = _numbers(_part(pose, "position"), "latitude", "longitude")
+    lat, lon = numbers(part(pose, "position"), "latitude", "longitude")
     if not (abs(lat) <= 90 and abs(lon) <= 180):
         raise Ros2Error(f"{lat}, {lon} is not a place on earth")
-    _upright(_part(pose, "orientation"))
+    _upright(part(pose, "orientation"))
     return lat, lon
 
 
 def _upright(orientation: RosMessage) -> None:
     """Raise an error unless the quaternion has length 1; one that was never filled in is all zeros."""
-    length = math.hypot(*_numbers(orientation, "x", "y", "z", "w"))
+    length = math.hypot(*numbers(orientation, "x", "y", "z", "w"))
     if not abs(length - 1.0) <= _OFF:
         raise Ros2Error(f"the orientation is not a unit quaternion: its length is {length:g}")
-
-
-def _numbers(message: RosMessage, *names: str) -> tuple[float, ...]:
-    values = tuple(message.get(name) for name in names)
-    if not all(isinstance(value, (int, float)) and math.isfinite(value) for value in values):
-        raise Ros2Error(f"{', '.join(names)} are not all numbers")
-    return tuple(float(value) for value in values if isinstance(value, (int, float)))
-
-
-def _part(message: object, name: str) -> RosMessage:
-    part = message.get(name) if isinstance(message, Mapping) else None
-    return part if isinstance(part, Mapping) else {}
-
-
-def _listed(value: object) -> Sequence[object]:
-    return value if isinstance(value, (tuple, list)) else ()
 
 
 def _duration(seconds: float) -> RosMessage:

@@ -6,6 +6,7 @@ import math
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 
@@ -14,8 +15,9 @@ from fieldhand.errors import InputError
 from fieldhand.execution.drivers.protocol import Progress
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.map_frame import degrees_to_map
-from fieldhand.execution.drivers.ros2.navigation import FOLLOW_PATH
+from fieldhand.execution.drivers.ros2.navigation import FOLLOW_PATH, ROUTE
 from fieldhand.execution.drivers.ros2.simulated_robot.action_server import ActionServer, GoalHandler
+from fieldhand.execution.drivers.ros2.simulated_robot.camera_topics import CameraTopics
 from fieldhand.execution.drivers.ros2.simulated_robot.capture_servers import CaptureCall, CaptureServer, capture_server
 from fieldhand.execution.drivers.ros2.simulated_robot.controller_server import ControllerServer
 from fieldhand.execution.drivers.ros2.simulated_robot.field_values import submessage
@@ -24,6 +26,7 @@ from fieldhand.execution.drivers.ros2.simulated_robot.navigation_server import N
 from fieldhand.execution.drivers.ros2.simulated_robot.navigator import Navigator
 from fieldhand.execution.drivers.ros2.simulated_robot.place_lookup import PlaceLookup
 from fieldhand.execution.drivers.ros2.simulated_robot.robot_platform import SimulatedPlatform
+from fieldhand.execution.drivers.ros2.simulated_robot.route_server import RouteServer
 from fieldhand.execution.drivers.ros2.simulated_robot.sensor_topics import SensorTopics
 from fieldhand.execution.drivers.ros2.simulated_robot.speed_limit import SpeedLimit
 from fieldhand.execution.drivers.ros2.simulated_robot.switch_server import SwitchServer
@@ -69,6 +72,10 @@ class GoalReport:
     took_s: float = 0.0
     readings: Mapping[str, float] = field(default_factory=dict)
     charge_percent: float = 0.0
+
+
+#: Degrees short of a goal's heading at which it stops turning: the default of Nav2's goal checker (0.25 rad).
+YAW_TOLERANCE_DEG = math.degrees(0.25)
 
 
 class _StepClock:
@@ -140,7 +147,9 @@ class SimulatedRobot:
     ) -> None:
         bindings = bindings_of(profile)
         self._clock, self._report, self._sim_time = _StepClock(clock, wall), report, sim_time
-        driver = SimulatedDriver(site, profile, world, self._clock, np.random.default_rng(seed))
+        driver = SimulatedDriver(
+            site, profile, world, self._clock, np.random.default_rng(seed), yaw_tolerance_deg=YAW_TOLERANCE_DEG
+        )
         self._begun_s = self._clock.now()
         if state is not None:
             driver.restore(state)
@@ -151,8 +160,10 @@ class SimulatedRobot:
         start = site.start
         self._datum = bindings.navigation.datum or Datum(lat=start.lat, lon=start.lon)
         self._nav: list[NavigationServer] = []
+        #: Its route server; None if its profile does not name one.
+        self.routes: RouteServer | None = None
         self._servers: list[ActionServer | CaptureServer | SwitchServer | LifecycleServer | Navigator] = []
-        self._serve_navigation(site, bindings, interfaces, transport, world.faults)
+        self._serve_navigation(site, profile, bindings, interfaces, transport, world.faults)
         self._sensors = SensorTopics(
             transport,
             interfaces,
@@ -161,11 +172,23 @@ class SimulatedRobot:
             measure=self._measure,
             header=lambda: self._stamped("base_link"),
         )
+        self._cameras = CameraTopics(
+            transport,
+            bindings,
+            view=lambda: (self._nearest(), self.platform.position),
+            header=lambda: self._stamped("camera"),
+        )
         for name, bound in bindings.actions.items():
             if bound.call is not None:
                 full_name = bindings.whole_name(bound.call.name)
                 capture_call = CaptureCall(
-                    profile.doable[name], bound.call, interfaces, self.platform, self._places, self._captured(full_name)
+                    profile.doable[name],
+                    bound.call,
+                    interfaces,
+                    self.platform,
+                    self._places,
+                    self._captured(full_name),
+                    images=partial(self._cameras.answers, interfaces, bound.call),
                 )
                 self._servers.append(
                     capture_server(
@@ -208,6 +231,8 @@ class SimulatedRobot:
             server.step()
         for navigation in self._nav:
             navigation.step()
+        if self.routes is not None:
+            self.routes.step()
         for to, request in self._from_ll.requests() if self._from_ll is not None else ():
             self._locate(to, request)
         if self.platform.driving:
@@ -217,6 +242,7 @@ class SimulatedRobot:
         settled = self._standing_s is not None and now - self._standing_s >= self._settles_s
         if settled or self._standing_s is None:
             self._sensors.step(now, standing=settled)
+        self._cameras.step(now)
         self._telemetry.step(now)
 
     def close(self) -> None:
@@ -226,6 +252,7 @@ class SimulatedRobot:
     def _serve_navigation(
         self,
         site: Site,
+        profile: RobotProfile,
         bindings: Ros2Bindings,
         interfaces: Interfaces,
         transport: Transport,
@@ -257,7 +284,8 @@ class SimulatedRobot:
             return ActionServer(transport, name, type_name, handles, stamp=self._stamp, refused=self._refused(name))
 
         controller: ControllerServer | None = None
-        if navigation.follow_path:
+        drives_itself = (navigation.type, navigation.action) == (FOLLOW_PATH, navigation.follow_path)
+        if navigation.follow_path and not drives_itself:
             action = navigation.follow_path
             report = self._ended(bindings.whole_name(action))
             controller = ControllerServer(self.platform, handler(action, FOLLOW_PATH), report)
@@ -270,8 +298,22 @@ class SimulatedRobot:
             works, works_by = navigation.working_action, navigation.working
             self._servers.append(serve(works, works_by, handler(works, works_by)))
         states = [LifecycleServer(transport, bindings.whole_name(node)) for node in navigation.nodes]
-        self._servers += states[1:]
         action, kind = navigation.action, navigation.type
+        if kind == ROUTE:
+            self.routes = RouteServer(
+                navigation,
+                kind,
+                interfaces,
+                self.platform,
+                site,
+                profile,
+                self._datum,
+                stamped=self._stamped,
+                report=self._ended(bindings.whole_name(action)),
+            )
+            self._servers += [*states, serve(action, kind, self.routes)]
+            return
+        self._servers += states[1:]
         driving = handler(action, kind, controller)
         self._servers.append(
             Navigator(

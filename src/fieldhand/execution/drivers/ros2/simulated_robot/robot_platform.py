@@ -26,7 +26,6 @@ class SimulatedPlatform:
         odometry: Dead-reckoned position from odometer and heading, east and north of the initial position, in metres.
             The
             cost of a drive deviates from its length, and the odometer counts the cost.
-        heading_deg: Heading in degrees clockwise from north.
 
     Args:
         driver: Simulates drives and captures.
@@ -37,7 +36,6 @@ class SimulatedPlatform:
         self._driver, self._site, self._speed = driver, site, 0.0
         self.metres = 0.0
         self.odometry: Point = (0.0, 0.0)
-        self.heading_deg = 0.0
         self._activity = ""
         self._over: Over = _nobody
         self._counted = 0.0
@@ -52,6 +50,11 @@ class SimulatedPlatform:
     def position(self) -> Position:
         """Current position."""
         return self._driver.position()
+
+    @property
+    def heading_deg(self) -> float:
+        """Heading in degrees clockwise from north; north before it has moved."""
+        return self._driver.position().heading_deg or 0.0
 
     @property
     def charge_percent(self) -> float:
@@ -91,7 +94,15 @@ class SimulatedPlatform:
         """Return the state from which it can continue later."""
         return self._driver.state()
 
-    def drive(self, through: tuple[Point, ...], place: Place, speed_m_s: float, over: Over) -> None:
+    def drive(
+        self,
+        through: tuple[Point, ...],
+        place: Place,
+        speed_m_s: float,
+        over: Over,
+        *,
+        heading_deg: float | None = None,
+    ) -> None:
         """Start a drive along corners in local metres; the platform must be idle.
 
         Args:
@@ -99,6 +110,7 @@ class SimulatedPlatform:
             place: Destination.
             speed_m_s: Speed limit.
             over: Called once at the end, unless the drive is stopped.
+            heading_deg: Heading at the end; None for that of the last leg.
         """
         here = self._driver.position()
         path = ((here.x, here.y), *through)
@@ -110,6 +122,7 @@ class SimulatedPlatform:
                 path_degrees=self._site.projection.lat_lon(path),
                 length_m=length_m(path),
                 speed_m_s=speed_m_s,
+                heading_deg=heading_deg,
             )
         )
         self._begin("driving", over)
@@ -158,12 +171,11 @@ class SimulatedPlatform:
         here = self._driver.position()
         east, north = here.x - self._last_position.x, here.y - self._last_position.y
         self._last_position = here
-        if math.hypot(east, north) > _STILL_M:
-            self.heading_deg = math.degrees(math.atan2(east, north)) % 360.0
         step = max(0.0, progress.metres - self._counted)
         self._counted = progress.metres
         self.metres += step
-        turned = math.radians(self.heading_deg)
+        moved = math.hypot(east, north) > _STILL_M
+        turned = math.atan2(east, north) if moved else math.radians(self.heading_deg)
         self.odometry = (self.odometry[0] + step * math.sin(turned), self.odometry[1] + step * math.cos(turned))
 
 

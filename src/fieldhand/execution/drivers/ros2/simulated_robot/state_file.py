@@ -54,6 +54,7 @@ class _Document(BaseModel):
     lost: tuple[tuple[Finite | None, str], ...]
     met: tuple[tuple[Count, Finite], ...] = ()
     docked: bool = False
+    heading_deg: float | None = None
 
 
 def write_state(path: Path, state: SimulationState, identity: Identity) -> None:

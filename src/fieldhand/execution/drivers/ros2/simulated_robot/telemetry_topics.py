@@ -17,6 +17,7 @@ from fieldhand.robot.bindings import EventBinding, Ros2Bindings, TopicBinding
 
 #: Seconds between two messages of each topic.
 _FIX_S, _ODOMETRY_S, _BATTERY_S, _STOP_S, _EVENT_S = 0.1, 0.05, 1.0, 0.5, 0.2
+_ODOMETER_S = 0.2
 #: Status of a receiver with corrections and of one without a fix (``sensor_msgs/msg/NavSatStatus``); standard deviation
 #: of the former in metres east, north and up.
 _CORRECTED, _NO_FIX = 2, -1
@@ -76,6 +77,9 @@ class TelemetryTopics:
         ]
         if bindings.odometry is not None:
             self._topics.append(sent(bindings.odometry, _ODOMETRY_S, self._odometry))
+        if bindings.odometer is not None:
+            interfaces.field_at(bindings.odometer.topic.type, bindings.odometer.value.path)
+            self._topics.append(sent(bindings.odometer.topic, _ODOMETER_S, self._odometer))
         if bindings.stop is not None:
             interfaces.field_at(bindings.stop.topic.type, bindings.stop.path)
             self._topics.append(sent(bindings.stop.topic, _STOP_S, self._stop))
@@ -88,7 +92,8 @@ class TelemetryTopics:
         """Return the full names of the telemetry topics."""
         stop = None if bindings.stop is None else bindings.stop.topic
         events = (event.topic for event in bindings.events.values())
-        bound = (bindings.position.fix, bindings.battery.topic, bindings.odometry, stop, *events)
+        odometer = None if bindings.odometer is None else bindings.odometer.topic
+        bound = (bindings.position.fix, bindings.battery.topic, bindings.odometry, odometer, stop, *events)
         return frozenset(bindings.whole_name(topic.topic) for topic in bound if topic is not None)
 
     def step(self, now: float) -> None:
@@ -140,6 +145,13 @@ class TelemetryTopics:
             },
             "twist": {"twist": {"linear": {"x": self._platform.speed_m_s, "y": 0.0, "z": 0.0}}},
         }
+
+    def _odometer(self) -> RosMessage:
+        binding = self._bindings.odometer
+        assert binding is not None  # noqa: S101  sent only where there is one
+        metres = field_value(self._interfaces, binding.topic.type, binding.value, self._platform.metres)
+        message = message_of({binding.value.path: metres})
+        return with_header(self._interfaces, binding.topic.type, message, self._stamped("base_link"))
 
     def _stop(self) -> RosMessage:
         binding = self._bindings.stop
