@@ -64,7 +64,7 @@ class Nav2Rig:
 
     def __post_init__(self) -> None:
         ros2 = bindings(self.robot)
-        self.interfaces = interfaces_of(ros2.distro, tuple(ros2.interfaces.items()))
+        self.interfaces = interfaces_of(ros2.release, tuple(ros2.interfaces.items()))
         self.clock = SteppingClock()
         self.graph = Graph(self.clock.now, complete=self.interfaces.complete)
         self.simulated = SimulatedRobot(

@@ -131,7 +131,7 @@ class Meeting:
         robot.tell("new", **switches)
         self.robot = robot
         self.profile: RobotProfile = replace(husky(), ros2=bound, speed_m_s=SPEED, patience=_PATIENCE)
-        self._interfaces = interfaces(bound.distro)
+        self._interfaces = interfaces(bound.release)
         self.node = open_dds(self._interfaces)
         self.clock = Lockstep(robot, self.node)
 
@@ -185,7 +185,7 @@ def connected_simulated_robot(
     try:
         far.tell("new_simulated_robot", site=site, robot=truth or robot, seed=seed, world=world)
         bound = bindings_of(profile)
-        known = Interfaces.of(bound.distro, bound.interfaces)
+        known = Interfaces.of(bound.release, bound.interfaces)
         node = open_dds(known)
         clock = Lockstep(far, node, tick_s)
         _await_one_robot(node, bound)

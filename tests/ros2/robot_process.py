@@ -73,7 +73,7 @@ class Process:
         self.end()
         profile = load_robot(robot)
         bound = bindings_of(profile)
-        known = Interfaces.of(bound.distro, bound.interfaces)
+        known = Interfaces.of(bound.release, bound.interfaces)
         self.nodes = [open_dds(known)]
         self.said_of_goals: list[GoalReport] = []
         simulated = SimulatedRobot(

@@ -294,13 +294,13 @@ class World:
         }  # fmt: skip
         bound = self.profile.ros2
         assert bound is not None
-        return Ros2Driver.connect(self.computer, interfaces(bound.distro), SITE, self.profile, **options | changes)
+        return Ros2Driver.connect(self.computer, interfaces(bound.release), SITE, self.profile, **options | changes)
 
 
 def world(bound: Ros2Bindings | None = None, *, seed: int = 0, **switches: Any) -> World:
     bound = bound or bindings()
     clock = RobotClock()
-    types = interfaces(bound.distro)
+    types = interfaces(bound.release)
     checked: dict[str, set[str]] = {}
 
     def complete(type_name: str, message: RosMessage) -> RosMessage:

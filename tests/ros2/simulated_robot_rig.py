@@ -56,7 +56,7 @@ class SimulatedRobotRig:
 
     def __post_init__(self) -> None:
         ros2 = bindings(self.robot)
-        self.interfaces = interfaces_of(ros2.distro, tuple(ros2.interfaces.items()))
+        self.interfaces = interfaces_of(ros2.release, tuple(ros2.interfaces.items()))
         self.clock = SimulatedClock()
         graph = Graph(self.clock.now, complete=self.interfaces.complete)
         self.client = graph.node()
@@ -126,7 +126,7 @@ class SimulatedRobotRig:
         poses = [pose(*self.in_map(lat, lon)) for lat, lon in degrees]
         if kind.endswith("NavigateToPose"):
             return {"pose": poses[0]}
-        return {"poses": {"goals": poses} if bindings(self.robot).distro == "kilted" else poses}
+        return {"poses": {"goals": poses} if bindings(self.robot).release == "kilted" else poses}
 
     def in_map(self, lat: float, lon: float) -> tuple[float, float]:
         """By the robot's own service."""

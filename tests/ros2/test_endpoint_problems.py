@@ -134,4 +134,8 @@ def test_another_definition_of_the_same_name(
     monkeypatch.setattr(here, "writers_of", lambda _: saying(interfaces.type_hash(FIX)))
     assert topic_problem(here, interfaces, "/fix", FIX) is None
     monkeypatch.setattr(here, "writers_of", lambda _: saying("RIHS01_0"))
-    says(topic_problem(here, interfaces, "/fix", FIX), f"another definition of {FIX}", "set the robot's distro")
+    says(
+        topic_problem(here, interfaces, "/fix", FIX),
+        f"another definition of {FIX}",
+        "set the robot's, or give its definition",
+    )

@@ -134,7 +134,10 @@ def test_a_type_of_another_name_and_one_of_the_same_name_with_other_fields(meet:
     assert "/thermometer: it is answered as std_srvs/srv/Trigger, not as farm_msgs/srv/Read; correct the type" in said
     for other in ("string kind\n---\nbool ok\nstring words", "string kind\nbool twice\n---\nbool ok\nfloat64 kelvin"):
         said = why(meet(definitions={READ: other}))
-        assert "/thermometer: the robot has another definition of farm_msgs/srv/Read than is known here; set" in said
+        assert (
+            "/thermometer: the robot has another definition of farm_msgs/srv/Read than is known here; leave distro out"
+            in said
+        )
     said = why(meet(definitions={READ: other}, hashes=False))
     assert "/thermometer: it was discovered, but is not matched in both directions; check that its" in said
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import hashlib
 import json
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +15,7 @@ from PIL import ExifTags, Image
 
 from fieldhand import mission, missions
 from fieldhand.approval.authorize import EveryWarning
+from fieldhand.compatibility import UTC
 from fieldhand.execution.guard import NoGuard
 from fieldhand.execution.images.folder import ImageFolder
 from fieldhand.execution.journal import store

@@ -5,7 +5,7 @@ robot decide alike, and small deviations decide nothing.
 from __future__ import annotations
 
 from dataclasses import replace
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +16,7 @@ from fieldhand import mission
 from fieldhand.approval.authorize import EveryWarning
 from fieldhand.cli.demo import MISSIONS, DemoName
 from fieldhand.clock import SimulatedClock
+from fieldhand.compatibility import UTC
 from fieldhand.execution.drivers.simulation.driver import SimulatedDriver
 from fieldhand.execution.drivers.simulation.world import World
 from fieldhand.execution.mission_clock import MissionClock

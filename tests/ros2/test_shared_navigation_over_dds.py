@@ -87,7 +87,7 @@ def ends(far: RobotInProcess, action: str) -> list[str]:
 
 def test_a_goal_of_another_client_is_left_alone_until_it_is_over(tmp_path: Path) -> None:
     ros2 = bindings_of(load_robot(profile(tmp_path)))
-    node = open_dds(Interfaces.of(ros2.distro, ros2.interfaces))
+    node = open_dds(Interfaces.of(ros2.release, ros2.interfaces))
     name = ros2.whole_name(ros2.navigation.action)
 
     def prepare(far: RobotInProcess, clock: Lockstep) -> None:

@@ -117,7 +117,7 @@ class OverSimulatedRobot(DriverContract):
 
     def interfaces(self) -> Interfaces:
         assert self.robot.ros2 is not None
-        return interfaces_of(self.robot.ros2.distro, tuple(self.robot.ros2.interfaces.items()))
+        return interfaces_of(self.robot.ros2.release, tuple(self.robot.ros2.interfaces.items()))
 
 
 class TestAllCornersAtOnce(OverSimulatedRobot):

@@ -45,7 +45,7 @@ class Field:
         self.clock = contract.SharedClock()
         bound = robot.ros2
         assert bound is not None
-        self.interfaces = interfaces_of(bound.distro, tuple(bound.interfaces.items()))
+        self.interfaces = interfaces_of(bound.release, tuple(bound.interfaces.items()))
         self.opened: list[object] = []
         if dds:
             over = contract.TestOverDds()
@@ -91,7 +91,7 @@ class Field:
 def test_the_bindings_of_the_tractor_fit_their_types() -> None:
     bound = tractor().ros2
     assert bound is not None
-    report = check_types(tractor(), Interfaces.of(bound.distro, bound.interfaces))
+    report = check_types(tractor(), Interfaces.of(bound.release, bound.interfaces))
     assert report.missing == ()
     assert {e.binding.name for e in report.endpoints} >= {*SWITCHES.values(), "/follow_path"}
 

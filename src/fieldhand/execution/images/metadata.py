@@ -11,9 +11,10 @@ import json
 import struct
 import zlib
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import datetime
 from typing import TYPE_CHECKING
 
+from fieldhand.compatibility import UTC
 from fieldhand.execution.drivers.protocol import CapturedImage, Position
 from fieldhand.hidden_characters import visible
 from fieldhand.site.model import Place
