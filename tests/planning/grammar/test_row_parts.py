@@ -26,6 +26,10 @@ PLANNED = [
     (GLASSHOUSE, "film between H1-1 and H1-3", PART),
     (GLASSHOUSE, "film H1-2 and H1-5", "film rows UnionOf(TreeIs(H1-2)+TreeIs(H1-5))"),
 ]
+PLANNED += [
+    (DEMO, "film as much of row 4 as 20 minutes allow", "film rows Rows(4, 4), optional | duration_s 1200"),
+    (DEMO, "spray as much of rows 3 to 5 as 20 minutes allow", "spray rows Rows(3, 5), optional | duration_s 1200"),
+]
 REFUSED = [
     (GLASSHOUSE, "film H1-2", "not at single trees"),
     (GLASSHOUSE, "film H1-2 and H3-2", "not at single trees"),

@@ -153,6 +153,7 @@ def both_tracts(first: Tract, then: Tract | None = None, rest: Tract | None = No
     return replace(first, selector=s.UnionOf(parts=(*first.selector.members, *then.selector.members)))
 
 
+@construction("tract: ASMANY [OF] part=tract", cost=2.0)
 @construction("tract: ASMANY part=tract as_can", "tract: ASMANY noun=ROW as_can", cost=0.0)
 def as_many(part: Tract | None = None, noun: Lex | None = None) -> Tract | None:
     """Compose "as many of rows 3 to 8 as you can"."""
