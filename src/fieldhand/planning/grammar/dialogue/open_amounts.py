@@ -14,8 +14,9 @@ def require_amounts(setting: Setting, action: str, parameters: tuple[tuple[str, 
     Raises:
         OpenQuestion: A parameter has no number.
     """
-    for one in setting.robot.action[action].parameters if action else ():
-        if (one.name, OPEN_VALUE) not in parameters or one.minimum is None or one.maximum is None:
+    open_names = {name for name, value in parameters if value == OPEN_VALUE}
+    for one in setting.robot.action[action].parameters if open_names else ():
+        if one.name not in open_names or one.minimum is None or one.maximum is None:
             continue
         asked = message(
             "'{said}': how much? Say the {parameter}: {low} to {high} {unit} (otherwise {default} {unit}).",
