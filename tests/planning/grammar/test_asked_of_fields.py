@@ -235,3 +235,30 @@ def test_sides_other_plants_and_the_map(site: Site, request_text: str, plan: str
 @pytest.mark.parametrize(("site", "robot", "request_text"), NOT_RECORDED, ids=name)
 def test_not_planned(site: Site, robot: RobotProfile, request_text: str) -> None:
     assert not isinstance(EnglishPlanner().plan(request_text, site, robot), Planned)
+
+
+@pytest.mark.parametrize(
+    "request_text",
+    [
+        "In the mint do the same as last Tuesday.",
+        "Do the same as last Tuesday.",
+        "Do the same in row 3 as last week.",
+        "Do the same as yesterday in row 3.",
+        "In row 3, do the same thing as we did on Monday.",
+        "Repeat last week's round.",
+        "Do what you did last Tuesday.",
+        "Same again as last Friday, please, but only in the melons.",
+    ],
+)
+def test_asked_what_was_done(request_text: str) -> None:
+    outcome = EnglishPlanner().plan(request_text, GLASSHOUSE, AMIGA)
+    assert isinstance(outcome, Clarify), outcome
+    assert "what is to be done?" in str(outcome.question)
+    assert "read the soil moisture" in str(outcome.question)
+
+
+def test_the_same_of_this_request_is_known() -> None:
+    require_plan(
+        GLASSHOUSE, AMIGA, "Take a picture of H3-2 and do the same at H3-3.",
+        "picture @ TreeIs(H3-2); go TreeIs(H3-3); picture",
+    )  # fmt: skip

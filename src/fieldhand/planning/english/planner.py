@@ -47,6 +47,10 @@ class EnglishPlanner:
         outcome = self._plain(request, site, robot, answers)
         if not isinstance(outcome, Refused) or not self._suggests:
             return outcome
+        from fieldhand.planning.refusals.same_as_earlier import asked_what_was_done
+
+        if (asked := asked_what_was_done(request, outcome, robot)) is not None:
+            return asked
         from fieldhand.planning.refusals.helping import helpful
         from fieldhand.planning.refusals.leaving_out import asked_to_leave_out
         from fieldhand.planning.refusals.understood import parse_parts

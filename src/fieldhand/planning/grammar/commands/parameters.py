@@ -111,7 +111,7 @@ def pushed(amount: Amount, name: Lex | None = None) -> ParameterValue | None:
 @construction("parameter: [BUT] ROUGHAMOUNT", "parameter: [BUT] depth=ROUGHDEPTH", cost=0.3, given=("robot",))
 def open_amount(robot: RobotProfile, depth: Lex | None = None) -> ParameterValue | None:
     """Compose "not too much" and "less than usual", which give no number; the dialogue asks for it."""
-    numbers = {one.name for action in robot.actions for one in action.parameters if one.kind == "number"}
+    numbers = {one.name for action in robot.actions for one in action.parameters if _is_bounded(one)}
     names = tuple(sorted(name for name in numbers if ("depth" in name) == (depth is not None)))
     return ParameterValue(OPEN_VALUE, "", names) if names else None
 
@@ -462,7 +462,7 @@ def _fitting(parameters: tuple[Parameter, ...], value: ParameterValue) -> Iterat
     """Yield the name and the value of each parameter that a value fits."""
     for one in parameters:
         if value.value in (SAME_VALUE, OPEN_VALUE):
-            if one.name in value.names:
+            if one.name in value.names and (value.value == SAME_VALUE or _is_bounded(one)):
                 yield one.name, value.value
         elif isinstance(value.value, str):
             if value.value in one.choices and one.name in value.names:
@@ -479,6 +479,11 @@ def in_unit_of(parameter: Parameter, value: ParameterValue) -> float | None:
         return None
     size = 1.0 if value.unit == parameter.unit else _SIZES.get(value.unit, {}).get(parameter.unit)
     return None if size is None else round(value.value / size, 6)
+
+
+def _is_bounded(parameter: Parameter) -> bool:
+    """Return True for a number of which a question can state the range."""
+    return parameter.kind == "number" and parameter.minimum is not None and parameter.maximum is not None
 
 
 def _is_within(parameter: Parameter, number: float) -> bool:

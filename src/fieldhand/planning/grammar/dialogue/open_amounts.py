@@ -14,9 +14,9 @@ def require_amounts(setting: Setting, action: str, parameters: tuple[tuple[str, 
     Raises:
         OpenQuestion: A parameter has no number.
     """
-    known = setting.robot.action.get(action)  # a wait is none of them
-    for one in () if known is None else known.parameters:
-        if (one.name, OPEN_VALUE) not in parameters or one.minimum is None or one.maximum is None:
+    open_names = {name for name, value in parameters if value == OPEN_VALUE}
+    for one in setting.robot.action[action].parameters if open_names else ():
+        if one.name not in open_names or one.minimum is None or one.maximum is None:
             continue
         asked = message(
             "'{said}': how much? Say the {parameter}: {low} to {high} {unit} (otherwise {default} {unit}).",
