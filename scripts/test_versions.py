@@ -29,7 +29,6 @@ FAST = (
     "tests/test_strict_yaml.py",
     "tests/test_errors.py",
     "tests/task",
-    "tests/language",
     "tests/timetable",
 )
 

@@ -27,6 +27,7 @@ from fieldhand.language import joined, message
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Place, Site
 from fieldhand.task.frames import Task
+from fieldhand.task.plan import walk
 
 if TYPE_CHECKING:
     from fieldhand.site.drives import Drives
@@ -65,11 +66,17 @@ class BudgetGuard:
             same mission give the same decisions. The search for optional visits does not depend on it: it uses the
             forecast's seed.
         charge_percent: Battery charge at the start of the mission, 0 to 100.
+
+    Raises:
+        InputError: The Task has optional visits, and the solver that chooses them is not installed.
     """
 
     def __init__(
         self, task: Task, site: Site, robot: RobotProfile, drives: Drives, seed: int, charge_percent: float = 100.0
     ) -> None:
+        if any(node.is_optional for node in walk(task.composition.plan)):
+            # Here, so that no robot learns on its way that a package is missing.
+            import fieldhand.orienteering.kernels.compiled  # noqa: F401
         self._rng = np.random.default_rng(seed)
         self._budget = MissionBudget(task, site, robot, drives, charge_percent)
         self._optional = VisitChooser(self._budget)
