@@ -64,8 +64,9 @@ else:
 
 def sqlite_code(error: Exception) -> int:
     """Return the primary result code of an SQLite error; 0 for any other error."""
-    if sys.version_info >= (3, 11):
-        return getattr(error, "sqlite_errorcode", 0) & 0xFF
+    code = getattr(error, "sqlite_errorcode", None)  # from Python 3.11 on
+    if code is not None:
+        return int(code) & 0xFF
     import sqlite3
 
     return _SQLITE_MESSAGES.get(str(error).partition(":")[0], 0) if isinstance(error, sqlite3.Error) else 0

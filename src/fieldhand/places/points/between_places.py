@@ -95,7 +95,7 @@ def _distances(selector: StraightLine, length: float) -> Floats:
     """Return the distances of the points from the start in metres."""
     count, apart = selector.count, selector.apart_m
     if apart and np.isfinite(apart) and apart > 0 and not count and length / apart < MOST_POINTS:
-        return np.arange(int(length / apart + 1e-6) + 1) * apart
+        return np.arange(int(length / apart + 1e-6) + 1, dtype=np.float64) * np.float64(apart)
     if not apart and 1 <= count <= MOST_POINTS:
         return np.asarray(np.linspace(0.0, length, count) if count > 1 else [length / 2.0], dtype=np.float64)
     if apart and count:

@@ -72,7 +72,8 @@ def heard_releases(transport: Transport, bindings: Ros2Bindings) -> Iterator[Dis
     hashes = _announced(transport, bindings)
     if hashes is None:
         return None
-    return _fitting({of: one for of, one in hashes.items() if one}, bindings) if hashes else iter(("humble",))
+    unhashed: tuple[Distro, ...] = ("humble",)
+    return _fitting({of: one for of, one in hashes.items() if one}, bindings) if hashes else iter(unhashed)
 
 
 def _fitting(hashes: Mapping[str, str], bindings: Ros2Bindings) -> Iterator[Distro]:

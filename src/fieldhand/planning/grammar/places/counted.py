@@ -118,8 +118,8 @@ def trees_counted(inner: Nominal, at: Positions, site: Site) -> list[PlaceMeanin
             return trees_counted(replace(inner, selector=over(of, known[0])), at, site)
         if len(known) > _MOST_ROWS or not fills_rows(inner, site):
             return None
-        ways = [place for row in known for place in trees_counted(replace(inner, selector=row), at, site) or ()]
-        return [one for one in ways if one.selector.relative or ids_of(one.selector, site)] or None
+        in_rows = [place for row in known for place in trees_counted(replace(inner, selector=row), at, site) or ()]
+        return [one for one in in_rows if one.selector.relative or ids_of(one.selector, site)] or None
     if at.either:
         ways = [trees_counted(inner, replace(at, spans=(one,), either=False), site) or [] for one in at.spans]
         return [place for way in ways for place in way]
