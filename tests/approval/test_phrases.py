@@ -99,7 +99,24 @@ SAID = [
         None,
         "9 points along a zigzag of 5 legs across the zone “wet corner”",
     ),
-    (s.Transect(apart_m=10.0, shape="x"), None, "every 10 m along an X across the trees"),
+    (s.Transect(apart_m=10.0, shape="x"), None, "the points every 10 m along an X across the trees"),
+    (
+        s.Transect(apart_m=10.0, shape="edge", zone="pond", off_m=4.0),
+        None,
+        "the points every 10 m along the edge of the zone “pond”, 4 m from it",
+    ),
+    (
+        s.StraightLine(start=s.Marker(name="start"), end=s.InZone(zone="pond"), apart_m=20.0),
+        None,
+        "the points every 20 m on the straight line from the start marker to the zone “pond”",
+    ),
+    (
+        s.StraightLine(start=s.Marker(name="start"), end=s.Marker(name="end"), count=8),
+        None,
+        "8 points on the straight line from the start marker to the end marker",
+    ),
+    (s.Corners(zone="wet corner"), None, "the 4 corners of the zone “wet corner”"),
+    (s.Corners(which=("nw",), zone="wet corner"), None, "the north-west corner of the zone “wet corner”"),
     (
         s.PointsIn(zone="wet corner", count=5, random=True, seed=3),
         None,

@@ -78,7 +78,7 @@ def test_every_word_of_a_planned_request_has_a_part_in_it_or_is_reported(
 
 
 def test_a_word_that_is_not_known_is_named() -> None:
-    outcome = EnglishPlanner().plan("take a picture of tree 4 with the frobnicator", SITE, HUSKY)
+    outcome = EnglishPlanner().plan("take a picture of tree 4 with 3 frobnicators", SITE, HUSKY)
     assert isinstance(outcome, Refused)
-    assert "'frobnicator'" in outcome.reasons[0].what
-    assert outcome.reasons[0].said == ((34, 45),)
+    assert "'frobnicators'" in outcome.reasons[0].what
+    assert outcome.reasons[0].said == ((32, 44),)

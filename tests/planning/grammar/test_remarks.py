@@ -280,7 +280,6 @@ KEPT = [
     "I planted some of the Carmels. Take a picture of those.",
     "I know some Carmels are ill. Take a picture of those.",
     "My wife thinks one of the Carmels is dying. Take a picture of it.",
-    "There are Carmels and Nonpareils. Take a picture of them.",
     "There's a gopher by the pond. Photograph it.",
     "Photograph tree 4. There's a gopher beside it. Photograph that as well.",
     "Photograph tree 4. My brother planted it. Measure CO2 there.",

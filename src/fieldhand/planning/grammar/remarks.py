@@ -189,7 +189,7 @@ def _measures(k: int, kinds: Sequence[set[str]]) -> bool:
     """Return True for a number of metres, minutes or trees, for which "about" it will do; a reading is never one."""
     follows = kinds[k + 1] if k + 1 < len(kinds) else set()
     equals = k > 1 and bool(kinds[k - 2] & {"CONTRACTED", "IS", "IT"})
-    return "NUM" in kinds[k] and bool(follows & {"NOUN", "ROW", "TREE", "UNIT"}) and not equals
+    return k < len(kinds) and "NUM" in kinds[k] and bool(follows & {"NOUN", "ROW", "TREE", "UNIT"}) and not equals
 
 
 def _spans(words: Sequence[Word], chosen: set[int]) -> tuple[Span, ...]:

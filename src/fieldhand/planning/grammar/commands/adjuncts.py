@@ -326,15 +326,21 @@ def _each_another(command: CaptureCommand, _: None) -> CaptureCommand | None:
 
 
 @construction(
-    "adjunct: [EACH] [ONE] FROM DET OTHER TREE", "adjunct: [EACH] [ONE] AT DET OTHER TREE",
-    "adjunct: [EACH] [ONE] FROM ANOTHER TREE", "adjunct: [EACH] [ONE] AT ANOTHER TREE",
-    "adjunct: [EACH] [ONE] OF DET OTHER TREE", "adjunct: [EACH] FROM OTHER TREE", "adjunct: [EACH] AT OTHER TREE",
+    "adjunct: EACH [ONE] FROM DET OTHER TREE", "adjunct: EACH [ONE] AT DET OTHER TREE",
+    "adjunct: EACH [ONE] FROM ANOTHER TREE", "adjunct: EACH [ONE] AT ANOTHER TREE",
+    "adjunct: EACH [ONE] OF DET OTHER TREE", "adjunct: EACH FROM OTHER TREE", "adjunct: EACH AT OTHER TREE",
     "adjunct: OTHEREACH",
     cost=0.1,
 )  # fmt: skip
 def each_another() -> Adjunct:
     """Compose "each from a different plant"."""
     return Adjunct(_each_another, late=True)
+
+
+@construction("adjunct: FROM OTHER trees=TREE", "adjunct: AT OTHER trees=TREE", cost=0.1)
+def all_different(trees: Lex) -> Adjunct | None:
+    """Compose "from different plants"; "some other plant" is a place."""
+    return each_another() if trees.plural else None
 
 
 def _unchanged(command: CaptureCommand, _: None) -> CaptureCommand:
