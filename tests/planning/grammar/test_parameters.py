@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fieldhand.planning.english.planner import EnglishPlanner
-from fieldhand.planning.planner import Planned, Refused
+from fieldhand.planning.planner import Clarify, Planned, Refused
 from fieldhand.robot.capabilities import capabilities_of
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import Parameter
@@ -80,3 +80,10 @@ def test_a_unit_of_the_profile_is_a_word_of_the_grammar() -> None:
 )
 def test_a_robot_without_the_parameter_does_not_drop_it(request_: str) -> None:
     assert isinstance(EnglishPlanner(suggests=False).plan(request_, DEMO, HUSKY), Refused)
+
+
+def test_twice_at_two_depths_is_once_or_twice_at_each() -> None:
+    request = "Measure the soil moisture at tree 4 twice, once at 15 cm and once at 40 cm depth."
+    outcome = EnglishPlanner().plan(request, open_site("demo"), load_robot("amiga"))
+    assert isinstance(outcome, Clarify)
+    assert len(outcome.choices) == 2

@@ -434,13 +434,16 @@ def thing_at_each(one: Thing, each: tuple[ParameterValue, ...], robot: RobotProf
 )
 def capture_at_each(
     said: CaptureCommand, each: tuple[ParameterValue, ...], used: int, robot: RobotProfile
-) -> CaptureCommand | None:
-    """Compose "measure moisture at tree 5 at depths of 20 and 40 cm"."""
+) -> list[CaptureCommand] | None:
+    """Compose "measure moisture at tree 5 at depths of 20 and 40 cm"; "twice" there is once at each, or twice."""
     made = [thing_at_each(replace(one, count=None), each, robot) for one in said.things]
     if not all(one.count in (None, 1, len(each)) for one in said.things):
         return None
     things = tuple(thing for each_of_one in made if each_of_one is not None for thing in each_of_one)
-    return replace(said, things=things, used=used) if len(things) == len(each) * len(made) else None
+    if len(things) != len(each) * len(made):
+        return None
+    whole = replace(said, things=things, used=used)
+    return [replace(whole, times=1), whole] if said.times == len(each) else [whole]
 
 
 def with_parameter(thing: Thing, value: ParameterValue, robot: RobotProfile) -> Thing | None:
