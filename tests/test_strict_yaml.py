@@ -22,7 +22,7 @@ REFUSED = {
     "a number of thousands of digits": (f"a: {'9' * 5000}", 1, "cannot be read as int"),
     "half of a character": ('a: "\\uD800"', 1, "cannot be read as str"),
     "half of a character as a key": ('"\\uDC00": 1', 1, "cannot be read as str"),
-    "a character beyond all": ('a: "\\UFFFFFFFF"', None, "too large to convert"),
+    "a character beyond all": ('a: "\\UFFFFFFFF"', None, "a character or a number is out of range"),
     "an alias": ("a: &x 1\nb: *x", 2, "aliases (*name) are not allowed"),
     "a list in itself": ("&a [*a]", 1, "aliases (*name) are not allowed"),
     "merged keys by an alias": ("a: &a {b: 1}\nc: {<<: [*a, *a]}", 2, "aliases (*name) are not allowed"),

@@ -50,8 +50,10 @@ def read_yaml(text: str, *, aliases: bool = False) -> Any:
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark or error.context_mark
         raise YamlFault(str(error.problem or error.context), mark.line + 1 if mark else None) from None
-    except (yaml.YAMLError, ValueError, ArithmeticError) as error:
+    except yaml.YAMLError as error:
         raise YamlFault(" ".join(str(error).split())) from None
+    except (ValueError, ArithmeticError) as error:  # their words differ between releases of Python
+        raise YamlFault(f"a character or a number is out of range ({' '.join(str(error).split())})") from None
 
 
 @cache
