@@ -169,6 +169,10 @@ def _await_one_robot(node: DdsTransport, bound: Ros2Bindings) -> None:
     client = node.client(f"{name}/_action/send_goal", f"{bound.navigation.type}_SendGoal")
     until(lambda: client.servers() == 1)
     client.close()
+    # The robot before may have been driven by another action; every one has a controller.
+    path = node.client(f"{bound.whole_name('follow_path')}/_action/send_goal", "nav2_msgs/action/FollowPath_SendGoal")
+    until(lambda: path.servers() <= 1)
+    path.close()
 
 
 @contextmanager
