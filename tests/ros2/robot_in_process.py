@@ -25,6 +25,7 @@ from fieldhand.execution.drivers.ros2.driver import Ros2Driver
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.robot_connection import needed_actions
 from fieldhand.execution.drivers.ros2.simulated_robot.robot import bindings_of
+from fieldhand.execution.drivers.ros2.transport import Client
 from fieldhand.execution.guard import NoGuard
 from fieldhand.execution.mission_runner import Result, run
 from fieldhand.execution.vehicle import Connection, Vehicle
@@ -38,7 +39,7 @@ from ros2.conftest import LOOPBACK
 from ros2.robot_process import ALL, FROM_ROBOT, NUMBER, TO_ROBOT
 from ros2.scripted_robot import SITE, SPEED, TICK_S, bindings, interfaces
 from support.missions.rig import authorized, husky, task_for
-from support.processes.patience import until
+from support.processes.patience import LONG_S, until
 
 _FASTER = 5.0
 _LEASE = "<Discovery><LeaseDuration>2s</LeaseDuration></Discovery></Domain>"
@@ -80,6 +81,13 @@ class RobotInProcess:
         assert self._process.stdout is not None
         self.state = json.loads(self._process.stdout.readline())
 
+    def end(self) -> None:
+        """Have it leave the graph, as one that is switched off: nobody takes it for the next."""
+        try:
+            self._process.communicate(timeout=LONG_S)  # closes what it reads its lines from
+        finally:
+            self._process.kill()
+
     def kill(self) -> None:
         """As ``kill -9``."""
         self._process.kill()
@@ -94,6 +102,8 @@ class Lockstep(SimulatedClock):
         self._tick_s = tick_s
         #: What happens once, when something holds.
         self.meanwhile: tuple[Callable[[], bool], Callable[[], None]] | None = None
+        #: True once the computer knows which servers the robot has begun or ended in the last step.
+        self.settled: Callable[[], bool] = lambda: True
         self._robot, self._numbers = robot, itertools.count(1)
         self._said = node.publish(TO_ROBOT, NUMBER, ALL)
         self._heard = node.subscribe(FROM_ROBOT, NUMBER, ALL)
@@ -113,6 +123,7 @@ class Lockstep(SimulatedClock):
                 self._said.send({"data": number})
                 self._robot.tell("step", seconds=step_s, number=number)
                 until(lambda number=number: {"data": number} in self._heard.take())  # type: ignore[misc]
+                until(self.settled)
             else:
                 time.sleep(step_s / _FASTER)
             super().advance(step_s)
@@ -163,16 +174,9 @@ class Meeting:
         )
 
 
-def _await_one_robot(node: DdsTransport, bound: Ros2Bindings) -> None:
-    """Wait until a robot that was killed before is no longer seen, which takes its lease whatever the clock says."""
-    name = bound.whole_name(bound.navigation.action)
-    client = node.client(f"{name}/_action/send_goal", f"{bound.navigation.type}_SendGoal")
-    until(lambda: client.servers() == 1)
-    client.close()
-    # The robot before may have been driven by another action; every one has a controller.
-    path = node.client(f"{bound.whole_name('follow_path')}/_action/send_goal", "nav2_msgs/action/FollowPath_SendGoal")
-    until(lambda: path.servers() <= 1)
-    path.close()
+def _client_of(node: DdsTransport, bound: Ros2Bindings, name: str, kind: str) -> Client:
+    """Return a client that sees the servers of an action."""
+    return node.client(f"{bound.whole_name(name)}/_action/send_goal", f"{kind}_SendGoal")
 
 
 @contextmanager
@@ -187,12 +191,20 @@ def connected_simulated_robot(
     far, profile = RobotInProcess(), load_robot(robot)
     node: DdsTransport | None = None
     try:
-        far.tell("new_simulated_robot", site=site, robot=truth or robot, seed=seed, world=world)
         bound = bindings_of(profile)
         known = Interfaces.of(bound.release, bound.interfaces)
         node = open_dds(known)
+        # The robot before may have been driven by another action; every one has a controller.
+        controller = _client_of(node, bound, "follow_path", "nav2_msgs/action/FollowPath")
+        navigator = _client_of(node, bound, bound.navigation.action, bound.navigation.type)
+        # One that was killed is seen until its lease ends, whatever the clock says.
+        until(lambda: controller.servers() == navigator.servers() == 0)
+        far.tell("new_simulated_robot", site=site, robot=truth or robot, seed=seed, world=world)
         clock = Lockstep(far, node, tick_s)
-        _await_one_robot(node, bound)
+        until(lambda: controller.servers() == navigator.servers() == 1)
+        controller.close()
+        # News of servers that end or begin travels as fast as the machine lets it, not as fast as time passes.
+        clock.settled = lambda: navigator.servers() == far.state["navigators"]
         driver = Ros2Driver.connect(
             node,
             known,
@@ -209,4 +221,4 @@ def connected_simulated_robot(
     finally:
         if node is not None:
             node.close()
-        far.kill()
+        far.end()

@@ -76,6 +76,8 @@ class Process:
         known = Interfaces.of(bound.release, bound.interfaces)
         self.nodes = [open_dds(known)]
         self.said_of_goals: list[GoalReport] = []
+        action = f"{bound.whole_name(bound.navigation.action)}/_action/send_goal"
+        self.navigators = self.nodes[0].client(action, f"{bound.navigation.type}_SendGoal")
         simulated = SimulatedRobot(
             open_site(site),
             profile,
@@ -144,13 +146,14 @@ class Process:
             node.close()
 
     def state(self) -> dict[str, object]:
-        """Return the place at which the robot is; of the simulated one, the goals that succeeded."""
+        """Return the place at which the robot is; of the simulated one, its goals and how many navigators are there."""
         robot = self.robots[0]
         if isinstance(robot, SimulatedRobot):
             return {
                 "made": [(said.name, said.place) for said in self.said_of_goals if said.end == "succeeded"],
                 "ends": [(said.name, said.end) for said in self.said_of_goals],
                 "driven_m": robot.platform.metres,
+                "navigators": self.navigators.servers(),
             }
         return {"executing": len(robot.navigation.executing) + len(robot.sampler.executing), "xy": robot.xy,
                 "goals": len(robot.navigation.received), "driven_m": robot.driven_m}  # fmt: skip
