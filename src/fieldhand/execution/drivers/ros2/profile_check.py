@@ -48,6 +48,9 @@ _CORRECT = "correct it in the profile's ros2 part"
 _LOOK_S = 0.02
 #: Seconds after which a second robot on the domain would have been discovered.
 _SETTLED_S = 1.0
+#: Seconds after which no endpoint is waited for any more of a robot that has another release than the profile insists
+#: on: those that differ never fit.
+_OTHER_RELEASE_S = 5.0
 
 #: Field paths of a message, each with the allowed types.
 _Paths = Sequence[tuple[str, tuple[str, ...]]]
@@ -153,9 +156,11 @@ def check_live(
     bindings = bindings_of(profile)
     nodes = _node_checks(bindings, transport, interfaces)
     checks = [*(t for t in tried if not isinstance(t, EndpointReport)), *nodes]
-    begun = steady()
-    while steady() < begun + within_s:
+    begun, agreed = steady(), steady()
+    while steady() < min(begun + within_s, agreed + _OTHER_RELEASE_S):
         seen = [check for check in checks if check.look()]
+        if _agrees(bindings.distro, transport, bindings):
+            agreed = steady()
         if len(seen) == len(checks) and steady() > begun + _SETTLED_S:
             break
         sleep(_LOOK_S)
@@ -166,6 +171,12 @@ def check_live(
         insisted=bindings.distro,
         heard=None if heard is None else tuple(heard),
     )
+
+
+def _agrees(insisted: Distro | None, transport: Transport, bindings: Ros2Bindings) -> bool:
+    """Return False once the robot is heard to have another release than the profile insists on."""
+    heard = None if insisted is None else heard_releases(transport, bindings)
+    return heard is None or insisted in heard
 
 
 def _node_checks(ros2: Ros2Bindings, transport: Transport, interfaces: Interfaces) -> list[LifecycleCheck]:
