@@ -145,8 +145,11 @@ class NavigationServer:
             self._stop_now()  # the path that a navigator left which has died
         corners, heading = self._corners(goal.goal_message), self._heading(goal.goal_message)
         here = self._platform.position
-        while len(corners) > 1 and math.dist(here.xy, corners[0]) < _PASSED_M:
+        passed_m = max(_PASSED_M, self._platform.goal_tolerance_m)
+        while len(corners) > 1 and math.dist(here.xy, corners[0]) < passed_m:
             corners = corners[1:]  # a controller prunes what is behind the robot
+        while self._type.endswith("/FollowPath") and len(corners) > 1 and _nears(here.xy, *corners[:2]):
+            corners = corners[1:]  # and begins where its path is nearest
         self._goal, self._begun_s, self._feedback_s = goal, self._now(), -math.inf
         if any(math.dist(here.xy, corner) > _REACH_M for corner in corners):
             self._end(Progress(state="failed", what="the goal lies outside of the map"), _OUTSIDE)
@@ -302,6 +305,11 @@ class NavigationServer:
         on = (n for n, leg in enumerate(self._legs) if n >= self._leg and _away(at.xy, *leg) < _ON_M)
         self._leg = next(on, self._leg)
         return self._leg
+
+
+def _nears(point: Point, one: Point, two: Point) -> bool:
+    """Return True if the second of two poses of a path is nearer to a point."""
+    return math.dist(point, two) < math.dist(point, one)
 
 
 def _away(point: Point, a: Point, b: Point) -> float:
