@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from hypothesis import strategies as st
 from shapely.geometry import LineString
 from shapely.geometry import Point as ShapelyPoint
 
+from execution.journalled import Field, PowerCut
 from fieldhand.clock import SimulatedClock
 from fieldhand.errors import WorldError
 from fieldhand.execution.drivers.protocol import ActionGoal
@@ -21,9 +23,11 @@ from fieldhand.execution.drivers.simulation.driver import SimulatedDriver
 from fieldhand.execution.drivers.simulation.goal_course import until_near_end
 from fieldhand.execution.drivers.simulation.world import Blocked, Localisation, TreeRef, Truth, World
 from fieldhand.execution.drivers.simulation.world_file import parse_world
+from fieldhand.execution.mission_clock import MissionClock
 from fieldhand.execution.mission_runner import Result
 from fieldhand.places.selectors import Rows, TreeIs
 from fieldhand.site.model import Place
+from fieldhand.task.event_lines import from_json
 from fieldhand.task.plan import Act, ForEach, Node
 from fieldhand.task.results import Arrived, Ended, Faulted, Strayed
 from fieldhand.testing.driver_contract import drive_goal, finish
@@ -251,3 +255,31 @@ def test_a_world_file_states_it() -> None:
 def test_a_mistake_in_it_is_named(text: str, said: str) -> None:
     with pytest.raises(WorldError, match=said.replace(".", r"\.")):
         parse_world(yaml.safe_load(text))
+
+
+class DriftingField(Field):
+    """A journalled mission of a robot that stops within a tolerance, and drifts."""
+
+    def _new(self) -> tuple[SimulatedClock | MissionClock, SimulatedDriver]:
+        clock, _ = super()._new()
+        world = World(goal_tolerance_m=0.25, localisation=Localisation(drift_m_per_100_m=2.0, noise_m=0.02))
+        return clock, SimulatedDriver(SITE, self.robot, world, clock, np.random.default_rng(2))
+
+
+@pytest.mark.parametrize("outlives", [False, True])
+def test_a_power_cut_changes_nothing_of_it(tmp_path: Path, outlives: bool) -> None:
+    plan, cut = Act(action="read_co2", at=TreeIs(tree="r0c4")), 0
+    while True:
+        cut += 1
+        field = DriftingField(tmp_path / f"{cut}", robot=replace(husky(), corridor_m=1.0), outlives=outlives)
+        try:
+            field.fly(plan, cut=cut)
+        except PowerCut:
+            field.fly(plan)
+        else:
+            break
+        found = [event for line in field.lines if (event := from_json(line)) is not None]
+        assert of_type(found, Ended)[-1].status == "completed"
+        assert captured(found) == [("read_co2", "r0c4")]
+        assert not of_type(found, Strayed)
+    assert cut > 3
