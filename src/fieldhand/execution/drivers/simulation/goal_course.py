@@ -144,13 +144,13 @@ def until_near_end(path: tuple[Point, ...], tolerance_m: float) -> tuple[Point, 
     return (*path[:last], (ax + left * ux, ay + left * uy))
 
 
-def _along(path: tuple[Point, ...], part: float, by: tuple[Point, ...] = ()) -> Point:
+def _along(path: tuple[Point, ...], part: float, driven: tuple[Point, ...] = ()) -> Point:
     """Return the point at a fraction of a path's length, 0 to 1.
 
     Args:
-        by: Path with as many corners, whose lengths count instead.
+        driven: Path with as many corners, whose lengths count instead.
     """
-    lengths = [math.dist(a, b) for a, b in itertools.pairwise(by or path)]
+    lengths = [math.dist(a, b) for a, b in itertools.pairwise(driven or path)]
     left = part * sum(lengths)
     if part >= 1.0:
         return path[-1]
