@@ -19,7 +19,7 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
     Said,
 )
-from fieldhand.planning.grammar.places.exceptions import except_for, except_positions
+from fieldhand.planning.grammar.places.exceptions import drawn_from, except_for, except_positions
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.places.planted_rows import rows_out_of
 from fieldhand.planning.grammar.places.points import outside_zones
@@ -270,7 +270,8 @@ def _without(
         return replace(command, place=replace(whole, per=per), used=used)
     if (points := outside_zones(whole, out.place.selector)) is not None:
         return replace(command, place=points, used=used)
-    among, left_out = ids_of(whole.selector, site), ids_of(out.place.selector, site)
+    drawn = drawn_from(whole.selector) if whole.per is None else None
+    among, left_out = ids_of(drawn or whole.selector, site), ids_of(out.place.selector, site)
     if any(part.uses_records for part in out.place.selector.walk()):
         left_out, among, some = set(), among or set(), False  # what was done before may be known later only
     if among is None or left_out is None or (some and not among & left_out):

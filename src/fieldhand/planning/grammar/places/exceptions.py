@@ -22,6 +22,8 @@ from fieldhand.planning.selections import (
     are_rows,
     are_several_rows,
     as_in_row,
+    as_quota,
+    as_random,
     as_some,
     as_where,
     blocks_of,
@@ -76,7 +78,9 @@ def except_word(word: Lex | None = None) -> str | None:
     return "except" if word is None or "leaves_out" in word.features else None
 
 
-@construction("out: place=place", "out: in_ place=place", "out: which_is in_ place=place", cost=0.1)
+@construction(
+    "out: place=place", "out: in_ place=place", "out: which_is in_ place=place", "out: FROM place=place", cost=0.1
+)
 def places_out(place: PlaceMeaning) -> Omission:
     """Compose "the yellow trees" and "in the wet corner"."""
     return Omission(place=place)
@@ -209,10 +213,10 @@ def out_with_but(
 )
 def without(whole: PlaceMeaning, out: Omission, site: Site) -> list[PlaceMeaning] | None:
     """Compose "all trees except the yellow trees" and "row 3, the first two left out"."""
-    some = as_some(whole.selector)
-    if some is not None and whole.per is None:  # "any three trees except tree 12": three of the others
-        others = without(PlaceMeaning(some.of, "several"), out, site) or ()
-        return [replace(whole, selector=swapped(whole.selector, some.of, one.selector)) for one in others] or None
+    drawn = drawn_from(whole.selector)
+    if drawn is not None and whole.per is None:  # "any three trees except tree 12": three of the others
+        others = without(PlaceMeaning(drawn, "several"), out, site) or ()
+        return [replace(whole, selector=swapped(whole.selector, drawn, one.selector)) for one in others] or None
     if whole.shape not in ("several", "area") or whole.optional:
         return None
     if out.place is not None:
@@ -353,6 +357,9 @@ def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site) -> PlaceMean
     """
     if whole.shape not in ("several", "area") or part.shape not in ("one", "several", "area"):
         return None
+    if (drawn := drawn_from(whole.selector)) is not None and whole.per is None:
+        others = except_for(PlaceMeaning(drawn, "several"), part, site)  # so many of each, or at random, of the others
+        return None if others is None else replace(whole, selector=swapped(whole.selector, drawn, others.selector))
     if whole.count is not None:
         if not set(named_places(part.selector) or (part.selector,)) < set(named_places(whole.selector)):
             return None
@@ -382,6 +389,12 @@ def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site) -> PlaceMean
     all_of_it = whole.shape == "area" and part.shape == "several"  # "row 6 except the yellow trees"
     selector = s.Excluding(places=part.selector, of=whole.selector)
     return replace(whole, selector=selector, shape="several" if all_of_it else whole.shape)
+
+
+def drawn_from(selector: s.Selector) -> s.Selector | None:
+    """Return the trees of which a selector takes some, whichever these are; None for another selector."""
+    some = as_some(selector) or as_random(selector) or as_quota(selector)
+    return None if some is None else some.of
 
 
 def _is_counted_in_it(part: PlaceMeaning, whole: PlaceMeaning) -> bool:

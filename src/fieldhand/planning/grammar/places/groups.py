@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import cast
 
 from fieldhand.places import selectors as s
@@ -39,6 +39,7 @@ construction = GRAMMAR.construction
 
 #: Maximum number of kinds that are visited one after the other ("of each variety").
 _MOST_KINDS = 12
+_ANY_TREES = s.Trees()
 
 
 @construction("owned_by: [word=DET] inner=owner", cost=0.3, given=("site",))
@@ -351,10 +352,29 @@ def of_them_there(whole: PlaceMeaning, word: Lex | None = None, it: Lex | None =
     return replace(whole, there=True, inside=inside) if chooses_from_trees(whole.selector) else None
 
 
-@construction("each_kind: EACH kind=ATTR", cost=0.0)
-def each_kind(kind: Lex) -> tuple[Lex, int]:
-    """Compose "each variety"."""
-    return kind, 0
+@dataclass(frozen=True, slots=True)
+class EachKind:
+    """Each of the kinds of trees that an attribute tells apart.
+
+    Attributes:
+        kind: The attribute.
+        several: Number of kinds, if the phrase gives it (otherwise 0).
+        of: Trees of which they are kinds.
+    """
+
+    kind: Lex
+    several: int = 0
+    of: s.Selector = _ANY_TREES
+
+
+@construction("each_kind: EACH kind=ATTR", "each_kind: EACH crop=ATTRVAL kind=ATTR", cost=0.0)
+@construction("per_kind: PER kind=ATTR", "per_kind: PER crop=ATTRVAL kind=ATTR", cost=0.0)
+def each_kind(kind: Lex, crop: Lex | None = None) -> list[EachKind]:
+    """Compose "each variety" and "each tomato cultivar"."""
+    if crop is None:
+        return [EachKind(kind)]
+    crops = [(name, value) for name, value in crop.value if name not in kind.value]
+    return [EachKind(kind, of=s.Where(attribute=name, test="eq", value=value)) for name, value in crops]
 
 
 @construction(
@@ -362,42 +382,31 @@ def each_kind(kind: Lex) -> tuple[Lex, int]:
     "each_kind: INEACH [OF] [DET] n=count kind=ATTR",
     cost=0.0,
 )
-def each_of_kinds(n: int, kind: Lex) -> tuple[Lex, int]:
+def each_of_kinds(n: int, kind: Lex) -> EachKind:
     """Compose "each of the two varieties"."""
-    return kind, n
+    return EachKind(kind, n)
+
+
+@construction(
+    "per_kind: OF kinds=each_kind", "per_kind: FOR kinds=each_kind", "per_kind: FROM kinds=each_kind",
+    "per_kind: AT kinds=each_kind",
+    cost=0.0,
+)  # fmt: skip
+def of_every_kind(kinds: EachKind) -> EachKind:
+    """Compose "from each variety"."""
+    return kinds
 
 
 @construction("place: some=place OF kinds=each_kind", cost=0.3, given=("site",))
-def best_of_each_kind(some: PlaceMeaning, kinds: tuple[Lex, int], site: Site) -> list[PlaceMeaning] | None:
+def best_of_each_kind(some: PlaceMeaning, kinds: EachKind, site: Site) -> list[PlaceMeaning] | None:
     """Compose "the three oldest trees of each variety"."""
     best = as_top(some.selector)
     return None if best is None or best.of != s.Trees() else of_each_kind(best, kinds, site)
 
 
 @construction(
-    "place: n=count [random=RANDOM] TREE OF EACH crop=ATTRVAL kind=ATTR",
-    "place: n=count [random=RANDOM] TREE FROM EACH crop=ATTRVAL kind=ATTR",
-    cost=0.2, given=("site",),
-)  # fmt: skip
-def so_many_of_each_kind_of_crop(
-    n: int, crop: Lex, kind: Lex, site: Site, random: Lex | None = None
-) -> list[PlaceMeaning] | None:
-    """Compose "two plants of each tomato cultivar"."""
-    made: list[PlaceMeaning] = []
-    for name, value in crop.value:
-        if name not in kind.value:
-            inner = Nominal(s.Where(attribute=name, test="eq", value=value), plural=True)
-            made += so_many_of_each_kind(n, inner, site, (kind, 0), random=random) or []
-    return made or None
-
-
-@construction(
-    "place: n=count [random=RANDOM] inner=nominal PER kind=ATTR",
-    "place: n=count [random=RANDOM] inner=nominal OF kinds=each_kind",
-    "place: n=count [random=RANDOM] inner=nominal FOR kinds=each_kind",
-    "place: n=count [random=RANDOM] inner=nominal FROM kinds=each_kind",
-    "place: n=count inner=nominal PER kind=ATTR in_ where=region",
-    "place: n=count inner=nominal OF kinds=each_kind in_ where=region",
+    "place: n=count [random=RANDOM] inner=nominal kinds=per_kind",
+    "place: n=count inner=nominal kinds=per_kind in_ where=region",
     cost=0.2,
     given=("site",),
 )
@@ -405,8 +414,7 @@ def so_many_of_each_kind(
     n: int,
     inner: Nominal,
     site: Site,
-    kinds: tuple[Lex, int] | None = None,
-    kind: Lex | None = None,
+    kinds: EachKind,
     where: s.Selector | None = None,
     random: Lex | None = None,
 ) -> list[PlaceMeaning] | None:
@@ -415,21 +423,23 @@ def so_many_of_each_kind(
         return None
     of = inner.selector if where is None else over(inner.selector, where)
     chosen = s.Take(count=n, of=of) if random is None else s.RandomSample(count=n, of=of)
-    return of_each_kind(chosen, (kind, 0) if kind is not None else kinds, site)
+    return of_each_kind(chosen, kinds, site)
 
 
-def of_each_kind(chosen: s.Selector, kinds: tuple[Lex, int] | None, site: Site) -> list[PlaceMeaning] | None:
+def of_each_kind(chosen: s.Selector, kinds: EachKind, site: Site) -> list[PlaceMeaning] | None:
     """Return what a selector chooses, of each of the kinds that the site records.
 
     Args:
         chosen: Some trees of a description.
-        kinds: Attribute that tells the kinds apart, and their number if the phrase gives one (otherwise 0).
+        kinds: The kinds.
         site: The site.
     """
     some = as_some(chosen) or as_random(chosen) or as_top(chosen) or as_quota(chosen)
-    if kinds is None or some is None:
+    if some is None:
         return None
-    kind, several = kinds
+    if kinds.of != _ANY_TREES:
+        some = replace(some, of=over(some.of, kinds.of))
+    kind, several = kinds.kind, kinds.several
     if kind.plural != (several > 0):
         return None
     made: list[PlaceMeaning] = []
