@@ -13,6 +13,7 @@ from fieldhand.planning.grammar.meaning import LAST_THING, UNSAID_THING, Capture
 from fieldhand.planning.grammar.places.counted import row_of_all
 from fieldhand.planning.grammar.places.groups import EachKind, of_each_kind
 from fieldhand.planning.grammar.places.nouns import Comparison, tests_of, that_pass
+from fieldhand.planning.grammar.places.numbers import VAGUE_NUMBERS
 from fieldhand.planning.grammar.places.sampling import bare_points
 from fieldhand.planning.grammar.places.vague import as_many_of_best
 from fieldhand.planning.grammar.words import Lex
@@ -250,6 +251,27 @@ def whichever_it_is(n: int | None = None) -> Adjunct:
 def chosen_at_random(site: Site) -> Adjunct:
     """Compose "chosen at random"."""
     return Adjunct(_at_random, _Drawing(site), is_sentence=True)
+
+
+def _not_at_all(command: CaptureCommand, _: None) -> CaptureCommand | list[CaptureCommand] | None:
+    """Return a command at some of its places, whose number is open if it was not said."""
+    place = command.place
+    if place is None or place.per is not None or place.each or place.optional or place.shape not in ("several", "area"):
+        return None
+    counts = {one.count for one in command.things}
+    if place.count is not None or (place.shape == "area" and counts != {None}):
+        return command
+    if place.refers_back or not chooses_from_trees(place.selector) or len(counts) > 1:
+        return None
+    numbers = VAGUE_NUMBERS if counts <= {None, 1} else [n for n in counts if n is not None]
+    some = (PlaceMeaning(s.Take(count=n, of=place.selector), "several", count=n) for n in numbers)
+    return [replace(command, things=once(command.things), place=one, relation="at") for one in some]
+
+
+@construction("adjunct: NOTALL", cost=0.2)
+def not_at_all() -> Adjunct:
+    """Compose "not all of them" behind what is captured there."""
+    return Adjunct(_not_at_all, is_sentence=True)
 
 
 @construction("adjunct: ASMANY as_can", cost=0.2)

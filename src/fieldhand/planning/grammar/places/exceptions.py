@@ -29,12 +29,14 @@ from fieldhand.planning.selections import (
     blocks_of,
     centre_of,
     is_block,
+    is_by_attribute,
     is_end_of_site,
     is_in_block,
     is_one_row,
     is_whole_rows,
     named_places,
     over,
+    picked_from,
     picks_from_all,
     rows_of,
     swapped,
@@ -411,6 +413,10 @@ def all_but(part: PlaceMeaning) -> list[PlaceMeaning] | None:
         return None
     if as_some(part.selector) is not None or part.at_most is not None:
         return None
+    groups = {picked_from(one) or rows_within(one) and getattr(one, "of", None) for one in part.selector.members}
+    kind = groups.pop() if len(groups) == 1 else None
+    if kind is not None and is_by_attribute(kind):  # "all but the two tallest leeks": of the leeks
+        return [PlaceMeaning(s.Excluding(places=part.selector, of=kind), "several")]
     inside = next((one for one in part.selector.walk() if isinstance(one, AREAS)), None)
     wholes: Iterator[s.Selector] = iter([s.Trees()] if inside is None or part.shape == "area" else [inside, s.Trees()])
     return [PlaceMeaning(s.Excluding(places=part.selector, of=whole), "several") for whole in wholes]
