@@ -413,7 +413,7 @@ def all_but(part: PlaceMeaning) -> list[PlaceMeaning] | None:
         return None
     if as_some(part.selector) is not None or part.at_most is not None:
         return None
-    groups = {picked_from(one) or rows_within(one) and getattr(one, "of", None) for one in part.selector.members}
+    groups = {picked_from(one) or (rows_within(one) and getattr(one, "of", None)) for one in part.selector.members}
     kind = groups.pop() if len(groups) == 1 else None
     if kind is not None and is_by_attribute(kind):  # "all but the two tallest leeks": of the leeks
         return [PlaceMeaning(s.Excluding(places=part.selector, of=kind), "several")]
