@@ -26,7 +26,16 @@ from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.places.planted_rows import rows_out_of
 from fieldhand.planning.grammar.places.points import outside_zones
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import are_rows, as_half, as_rows, as_zone, chooses_from_trees, named_places, over, swapped
+from fieldhand.planning.selections import (
+    are_rows,
+    as_half,
+    as_rows,
+    as_zone,
+    chooses_from_trees,
+    named_places,
+    over,
+    swapped,
+)
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()

@@ -355,8 +355,20 @@ def so_many_of_them(chosen: Chosen, n: int) -> Chosen | None:
     return replace(chosen, count=n) if chosen.count is None and chosen.inner.plural and chosen.rank is None else None
 
 
+@construction("chosen: chosen=chosen COMMA choice=chosen_as", cost=0.1)
+def chosen_behind_a_comma(chosen: Chosen, choice: Choice) -> Chosen | None:
+    """Compose "trees, nearest to the charger"; ", chosen at random" is said of all before it."""
+    return None if choice.by == "random" else _with_choice(chosen, choice)
+
+
+@construction("chosen: chosen=chosen COMMA choice=chosen_as", cost=0.8)
+def drawn_behind_a_comma(chosen: Chosen, choice: Choice) -> Chosen | None:
+    """Compose "trees, chosen at random", of one description."""
+    return _with_choice(chosen, choice) if choice.by == "random" else None
+
+
 @construction(
-    "chosen: chosen=chosen [COMMA] choice=chosen_as",
+    "chosen: chosen=chosen choice=chosen_as",
     "chosen: chosen=chosen STANDS choice=chosen_as",
     "chosen: chosen=chosen COMMA DET ONE [STANDS] choice=chosen_as",
     cost=0.1,

@@ -17,6 +17,7 @@ from fieldhand.planning.selections import (
     as_random,
     as_some,
     as_top,
+    as_where,
     chooses_from_trees,
     is_by_attribute,
     is_description,
@@ -182,6 +183,31 @@ def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[Place
     # "The first tree and the last tree of row 4": is the first that of the row, too?
     in_row = tuple(over(part, counted.of) if is_end_of_site(part) else part for part in parts)
     return [whole, replace(whole, selector=s.UnionOf(parts=in_row))]
+
+
+@construction("of_such: [DET] [n=count] [random=RANDOM] flag=FLAG", cost=0.0)
+def of_such(flag: Lex, n: int | None = None, random: Lex | None = None) -> list[PlaceMeaning]:
+    """Compose "six grafted" before "and six ungrafted Sungold plants"."""
+    kinds = [s.Where(attribute=name, test="eq", value=value) for name, value in flag.value]
+    if n is None:
+        return [PlaceMeaning(kind, "several") for kind in kinds]
+    chosen = [s.Take(count=n, of=kind) if random is None else s.RandomSample(count=n, of=kind) for kind in kinds]
+    return [PlaceMeaning(one, "one" if n == 1 else "several", count=n if n > 1 else None) for one in chosen]
+
+
+@construction("place: first=of_such AND second=place", "place: first=of_such AND [AT] second=place", cost=0.1)
+def such_and_such(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[PlaceMeaning] | None:
+    """Compose "six grafted and six ungrafted Sungold plants": both are Sungold."""
+    such = next(part for part in map(as_where, first.selector.walk()) if part is not None)
+    other = [part for part in map(as_where, second.selector.walk()) if part and part.attribute == such.attribute]
+    if len(other) != 1 or len(second.selector.members) > 1 or other[0].value == such.value:
+        return None
+    some = as_some(second.selector) or as_random(second.selector)
+    described = second.selector if some is None else some.of
+    kind = swapped(described, other[0], other[0].of)
+    if kind == s.Trees() or not is_description(described):
+        return None
+    return both(replace(first, selector=over(first.selector, kind)), second)
 
 
 @construction("place: word=EACH whole=place", cost=0.1)
