@@ -10,8 +10,8 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar, tokens_of
 from fieldhand.planning.grammar.meaning import (
-    CaptureCommand,
     THOSE_ROWS,
+    CaptureCommand,
     Command,
     Connective,
     DriveCommand,

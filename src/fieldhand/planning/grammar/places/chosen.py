@@ -286,16 +286,28 @@ def _every(chosen: Chosen, n: int) -> Chosen | None:
 # Words behind the noun.
 
 
+@construction("in_their_row: in_ DET ROW", "in_their_row: OF DET ROW", "in_their_row: in_ EACH ROW", cost=0.0)
+@construction("in_their_row: OF EACH ROW", "in_their_row: INEACH", cost=0.0)
+def in_their_row() -> str:
+    """Compose "in the row" behind the tree from which others are counted."""
+    return "row"
+
+
 @construction(
-    "chosen: chosen=chosen [COMMA] STARTING [DET] rank=ORD [TREE]",
-    "chosen: chosen=chosen [COMMA] STARTING [DET] rank=ORD ONE",
-    "chosen: chosen=chosen [COMMA] COUNTED [DET] rank=ORD [TREE]",
-    "chosen: chosen=chosen [COMMA] COUNTED [DET] rank=ORD ONE",
-    cost=0.1,
-)
-def starting_with(chosen: Chosen, rank: Lex) -> Chosen | None:
+    "begin_with: STARTING [DET] rank=ORD [TREE] [in_their_row]", "begin_with: STARTING [DET] rank=ORD ONE [in_their_row]",
+    "begin_with: STARTWITH [DET] rank=ORD [TREE] [in_their_row]", "begin_with: STARTWITH [DET] rank=ORD ONE [in_their_row]",
+    "begin_with: COUNTED [DET] rank=ORD [TREE] [in_their_row]", "begin_with: COUNTED [DET] rank=ORD ONE [in_their_row]",
+    cost=0.0,
+)  # fmt: skip
+def begin_with(rank: Lex) -> int:
+    """Compose "starting with the second one"."""
+    return int(rank.value)
+
+
+@construction("chosen: chosen=chosen [COMMA] start=begin_with", cost=0.1)
+def starting_with(chosen: Chosen, start: int) -> Chosen | None:
     """Compose "every third tree, starting with the second one"."""
-    return _with_nth(chosen, start=rank.value)
+    return _with_nth(chosen, start=start)
 
 
 @construction("chosen: chosen=chosen [COMMA] side=start", cost=0.1)

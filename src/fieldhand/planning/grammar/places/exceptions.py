@@ -39,6 +39,7 @@ from fieldhand.planning.selections import (
     picked_from,
     picks_from_all,
     rows_of,
+    some_of,
     swapped,
 )
 from fieldhand.site.model import Site
@@ -164,6 +165,12 @@ def positions_out(positions: tuple[Span, ...], rows: s.Selector | None = None) -
     return Omission(positions=positions, rows=rows)
 
 
+@construction("out: n=count OFTHEM", cost=0.1)
+def some_of_them_out(n: int) -> Omission:
+    """Compose "two of them" behind "all leeks except"."""
+    return Omission(trees=(str(n),), or_so_many=True)
+
+
 @construction("out: DET chosen=bare", cost=0.0)
 def chosen_out(chosen: Chosen) -> Omission:
     """Compose "the three nearest to the charger"."""
@@ -253,8 +260,8 @@ def _only_row_of(whole: PlaceMeaning, site: Site) -> s.Selector | None:
 
 
 def _ends_of_only_row(whole: PlaceMeaning, out: Omission, row: s.Selector) -> list[PlaceMeaning] | None:
-    """Return "every pumpkin except the two at the ends of the row"."""
-    if out.rows not in (None, s.RowOf(), row) or (out.rows is None and out.positions != BOTH_ENDS):
+    """Return "every pumpkin except the first" and "... except the two at the ends of the row"."""
+    if out.rows not in (None, s.RowOf(), row):
         return None
     parts = all_of([s.InRow(first=first, last=last, of=row) for first, last in out.positions])
     return [replace(whole, selector=s.Excluding(places=parts, of=whole.selector), shape="several")]
@@ -293,6 +300,8 @@ def _parts_out(whole: PlaceMeaning, out: Omission, site: Site) -> list[s.Selecto
     ways = numbered(out.trees, of, site) if out.as_trees or is_one_row(of) else []
     if of.relative and all(name.isdigit() for name in out.trees):
         ways.append(all_of(named))
+    if not ways and out.or_so_many and is_by_attribute(of) and not set(out.trees) & set(site.by_id):
+        return [some_of(of, int(number)) for number in out.trees if number.isdigit()]  # "all the leeks but three"
     if not ways and set(out.trees) < (ids_of(of, site) or set()):
         ways.append(all_of(named))
     return ways
