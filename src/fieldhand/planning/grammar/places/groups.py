@@ -210,6 +210,19 @@ def such_and_such(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | l
     return both(replace(first, selector=over(first.selector, kind)), second)
 
 
+@construction("place: first=place AND [AT] n=count word=WITHOUT", cost=0.1)
+@construction("place: first=place AND [AT] n=count word=WITHOUT IT", cost=0.1)
+def and_some_without(first: PlaceMeaning, n: int, word: Lex) -> PlaceMeaning | None:
+    """Compose "four plants with mildew and four without"."""
+    some = as_some(first.selector) or as_random(first.selector)
+    flags = [one for one in map(as_where, first.selector.walk()) if one is not None and isinstance(one.value, bool)]
+    if "leaves_out" not in word.features or some is None or len(flags) != 1:
+        return None
+    others = swapped(some.of, flags[0], replace(flags[0], value=not flags[0].value))
+    parts = (first.selector, replace(some, count=n, of=others))
+    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=some.count + n)
+
+
 @construction("place: word=EACH whole=place", cost=0.1)
 def both_of_two(word: Lex, whole: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "both the trough and the mast"."""
