@@ -70,9 +70,7 @@ def cut_short(when: Lex) -> PastTime:
     return said
 
 
-@construction(
-    "said: when=cut_short FULLSTOP rest=said", "said: when=cut_short [COMMA] THEREFORE rest=said", cost=0.3
-)
+@construction("said: when=cut_short FULLSTOP rest=said", "said: when=cut_short [COMMA] THEREFORE rest=said", cost=0.3)
 def missing_from_that(when: PastTime, rest: Said, used: int) -> Said | None:
     """Compose "yesterday you had to stop early. Photograph the leeks that are still missing."."""
     last = Period(last_missions=1)

@@ -37,8 +37,8 @@ def with_intervals(clauses: Sequence[LinkedCommand], site: Site) -> tuple[Linked
     """Return clauses with what one of them says of the intervals of the next, or of the one before it.
 
     "Stay for an hour and read CO2 every ten minutes" reads it for an hour, "every ten minutes, six times in all" six
-    times, and "wait ten minutes and do it again" repeats it after a wait. "Three readings at the trough and three at the
-    mast, a minute apart" has pauses at both places.
+    times, and "wait ten minutes and do it again" repeats it after a wait. "Three readings at the trough and three at
+    the mast, a minute apart" has pauses at both places.
     """
     found: list[LinkedCommand] = []
     for clause in _rested_alike(clauses, site):
