@@ -72,7 +72,8 @@ def absent_plant(words: Sequence[str], site: Site) -> str:
         named = tuple(words[:count])
         if not kinds or len(named) < count or named not in _known_plants():
             continue
-        grown = any(set(split(kind)) & {*named, _singular(named[-1])} for kind in kinds)
+        one = (*named[:-1], _singular(named[-1]) or named[-1])
+        grown = any(split(kind)[-count:] in (named, one) for kind in kinds)
         return "" if grown else " ".join(named)
     return ""
 

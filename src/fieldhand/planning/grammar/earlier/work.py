@@ -109,24 +109,8 @@ def _openings() -> frozenset[str]:
     known = tables()
     phrases = [phrase for name in ("participles", "works", "actives") for of in known[name].values() for phrase in of]
     single = {word for phrase in phrases for word in phrase.split()} - {"not", "to", "at", "out", "on", "up"}
-    more = {
-        "still",
-        "outstanding",
-        "left",
-        "finished",
-        "did",
-        "didn't",
-        "could",
-        "couldn't",
-        "failed",
-        "wrong",
-        "with",
-        "without",
-        "no",
-        "have",
-        "has",
-        "work",
-    }
+    more = {"did", "didn't", "could", "couldn't", "failed", "wrong", "with", "without", "no", "have", "has", "work"}
+    more |= {"still", "outstanding", "left", "finished"}
     return frozenset({*single, *more, "taken", "took", "got", "made", "filmed", "scanned", "recorded", "clipped"})
 
 

@@ -293,12 +293,17 @@ def in_their_row() -> str:
     return "row"
 
 
+@construction("begins_at: STARTING", "begins_at: STARTWITH", "begins_at: COUNTED", cost=0.0)
+def begins_at() -> str:
+    """Compose "starting with"."""
+    return "begin"
+
+
 @construction(
-    "begin_with: STARTING [DET] rank=ORD [TREE] [in_their_row]", "begin_with: STARTING [DET] rank=ORD ONE [in_their_row]",
-    "begin_with: STARTWITH [DET] rank=ORD [TREE] [in_their_row]", "begin_with: STARTWITH [DET] rank=ORD ONE [in_their_row]",
-    "begin_with: COUNTED [DET] rank=ORD [TREE] [in_their_row]", "begin_with: COUNTED [DET] rank=ORD ONE [in_their_row]",
+    "begin_with: begins_at [DET] rank=ORD [TREE] [in_their_row]",
+    "begin_with: begins_at [DET] rank=ORD ONE [in_their_row]",
     cost=0.0,
-)  # fmt: skip
+)
 def begin_with(rank: Lex) -> int:
     """Compose "starting with the second one"."""
     return int(rank.value)
