@@ -315,11 +315,8 @@ def _others(whole: PlaceMeaning, out: Excluded, site: Site) -> PlaceMeaning | No
     """Return "the other trees" and "the other block" as those that are not left out; None for other places."""
     rows_out = None if out.place is None else rows_out_of(out.place.selector, site) or out.place.selector
     if rows_out is not None and are_rows(rows_out):  # "two plants in each of the others"
-        other = (
-            swapped(one, THOSE_ROWS, rows_out) if one is not None and THOSE_ROWS in one.walk() else one
-            for one in (whole.selector, whole.per)
-        )
-        left = replace(whole, **dict(zip(("selector", "per"), other, strict=True)))
+        per = None if whole.per is None else swapped(whole.per, THOSE_ROWS, rows_out)
+        left = replace(whole, selector=swapped(whole.selector, THOSE_ROWS, rows_out), per=per)
         if left != whole:
             return left
     if out.place is not None and isinstance(whole.selector, s.NotVisited):
