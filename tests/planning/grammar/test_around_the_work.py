@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from fieldhand.robot.loader import load_robot
-from planning.grammar.field_requests import name, require_plan
+from planning.grammar.field_requests import name, require_plan, require_question, require_refusal
 from support.sites.gardens import glasshouse, pasture, vegetable_garden
 
 GARDEN, GLASSHOUSE, PASTURE = vegetable_garden(), glasshouse(), pasture()
@@ -49,3 +49,77 @@ IF_IT_FITS = [
 @pytest.mark.parametrize(("request_", "plan"), [*CHARGE, *IF_IT_FITS], ids=name)
 def test_work_is_limited_by_the_charge(request_, plan):
     require_plan(PASTURE, TRACTOR, request_, plan)
+
+
+KALE, ALL_KALE = "for Where(crop, eq, kale): [picture]", "for Where(crop, eq, kale) optional: [picture]"
+CO2 = "co2 @ PointsIn(rose bed)"
+ONE_GATE, TWO_GATES = f"{KALE} | only street gate", f"{KALE} | only street gate | only river gate"
+GATES = [
+    ("In through the street gate, leaf temperature of all the kale, and out the same gate again.", ONE_GATE),
+    ("Go in by the street gate, photograph the kale, and come out the same way.", ONE_GATE),
+    ("Photograph the kale. In and out through the street gate.", ONE_GATE),
+    ("Enter by the street gate. Photograph the kale. Leave by that gate again.", ONE_GATE),
+    ("In at the street gate, pictures of the kale, out at the river gate.", TWO_GATES),
+    ("Photograph the kale, entering by the street gate and leaving by the river gate.", TWO_GATES),
+    (
+        "Come in by the street gate, read CO2 at the rose bed and leave again through the street gate.",
+        f"{CO2} | only street gate",
+    ),
+]
+IN_TIME = [
+    (
+        "Photograph as many kales as possible in 12 minutes; when time runs out you should be at the street gate.",
+        f"{ALL_KALE}; go GateIs(street gate) | duration_s 720 | stay",
+    ),
+    (
+        "Get as many thermal pictures of the kale as you can in twelve minutes, and be at the rose bed when the time is"
+        " over.",
+        f"{ALL_KALE}; go PointsIn(rose bed) | duration_s 720 | stay",
+    ),
+    ("Photograph as many kales as possible within 12 minutes and be back in time.", f"{ALL_KALE} | duration_s 720"),
+]
+ORDER = [
+    ("Photograph the kale. When you get back, read the CO2.", f"{KALE}; co2 @ Marker(start)"),
+    (
+        "Photograph the kale, and when you are back read the CO2 at the street gate.",
+        f"{KALE}; co2 @ GateIs(street gate)",
+    ),
+    ("On your way home, read the CO2 at the rose bed. Photograph the kale.", f"{KALE}; {CO2}"),
+    ("Photograph the kale. Before you start, read CO2 at the rose bed.", f"{CO2}; {KALE}"),
+    ("Photograph the kale. First of all, read CO2 at the rose bed.", f"{CO2}; {KALE}"),
+    (
+        "Before you leave, read the air temperature at the start. Then photograph the kale.",
+        f"air @ Marker(start); {KALE}",
+    ),
+    ("Measure CO2 at the start before you leave, then photograph the kale.", f"co2 @ Marker(start); {KALE}"),
+    ("Photograph the kale and, to finish, read CO2 at the rose bed.", f"{KALE}; {CO2}"),
+    ("Photograph the kale, and as the last thing read CO2 at the rose bed.", f"{KALE}; {CO2}"),
+]
+ENDS = [
+    ("Photograph the kale and stay at the street gate.", f"{KALE}; go GateIs(street gate) | stay"),
+    ("Photograph the kale, then drive to the street gate and wait there.", f"{KALE}; go GateIs(street gate) | stay"),
+    ("Photograph the kale and remain at the rose bed.", f"{KALE}; go PointsIn(rose bed) | stay"),
+]
+
+
+@pytest.mark.parametrize(("request_", "plan"), [*GATES, *IN_TIME, *ORDER, *ENDS], ids=name)
+def test_it_is_said_how_the_robot_comes_and_where_it_ends(request_, plan):
+    require_plan(GARDEN, HUSKY, request_, plan)
+
+
+@pytest.mark.parametrize(
+    ("request_", "why"),
+    [
+        ("Drive to the street gate and stay there. Photograph the kale.", "something follows the end of the mission"),
+        ("Drive to the street gate, wait there, then photograph the kale.", "waiting without a time"),
+        ("Photograph the kale and be at the street gate when the time is over.", "when the time is"),
+        ("Photograph the kale and come back the same way.", "the same way"),
+    ],
+    ids=name,
+)
+def test_an_end_that_does_not_fit_is_refused(request_, why):
+    require_refusal(GARDEN, HUSKY, request_, why)
+
+
+def test_before_you_leave_may_be_before_the_work_or_behind_it():
+    require_question(GARDEN, HUSKY, "Photograph the kale, but before you leave read the CO2 at the rose bed.", 2)

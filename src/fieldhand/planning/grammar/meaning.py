@@ -797,6 +797,7 @@ class Connective:
         precedes: True for "before".
         in_turn: True for "then" that adds another place ("row 3, then row 4").
         each: True for "and after each one", before what is done then.
+        begins: True for "first of all", which begins a list unless something was to be done before it.
     """
 
     full: bool
@@ -812,6 +813,7 @@ class Connective:
     precedes: bool = False
     in_turn: bool = False
     each: bool = False
+    begins: bool = False
 
 
 #: Conditions that are checked throughout the mission.
@@ -903,3 +905,11 @@ class Said:
     """The clauses of a request, in order."""
 
     clauses: tuple[LinkedCommand, ...]
+
+    @property
+    def used(self) -> int:
+        """The tokens of the commands and of what joins them."""
+        used = 0
+        for clause in self.clauses:
+            used |= clause.command.used | (0 if clause.before is None else clause.before.used)
+        return used
