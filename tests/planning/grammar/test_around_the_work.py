@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import pytest
 
+from fieldhand.planning.english.planner import EnglishPlanner
+from fieldhand.planning.planner import Answer, Clarify, Planned
 from fieldhand.robot.loader import load_robot
+from planning.english.outlines import outline
 from planning.grammar.field_requests import name, require_plan, require_question, require_refusal
 from support.sites.gardens import glasshouse, pasture, vegetable_garden
 
@@ -123,3 +126,91 @@ def test_an_end_that_does_not_fit_is_refused(request_, why):
 
 def test_before_you_leave_may_be_before_the_work_or_behind_it():
     require_question(GARDEN, HUSKY, "Photograph the kale, but before you leave read the CO2 at the rose bed.", 2)
+
+
+MONDAYS = "at=sunrise weekdays=mon first_day=--05-01"
+MONTHS = [
+    (
+        "Every Friday in July at eight in the morning, photograph the trunks of two kale plants.",
+        "for Take(2, of Where(crop, eq, kale)): [picture(view trunk)] | at=08:00 weekdays=fri first_day=--07-01"
+        " last_day=--07-31",
+    ),
+    (
+        "In August, photograph the kale every morning at seven.",
+        f"{KALE} | at=07:00 first_day=--08-01 last_day=--08-31",
+    ),
+    (
+        "From May to September, photograph the kale every Monday.",
+        f"{KALE} | {MONDAYS} last_day=--09-30 late_min=1440 done_by=sunset",
+    ),
+    (
+        "Photograph the kale on Mondays in May, June and July.",
+        f"{KALE} | {MONDAYS} last_day=--07-31 late_min=1440 done_by=sunset",
+    ),
+    (
+        "Photograph the kale every week from April until October.",
+        f"{KALE} | at=sunrise every_days=7 first_day=--04-01 last_day=--10-31 late_min=1440 done_by=sunset",
+    ),
+    (
+        "Photograph the kale daily throughout June.",
+        f"{KALE} | at=sunrise first_day=--06-01 last_day=--06-30 late_min=1440 done_by=sunset",
+    ),
+    (
+        "From the beginning of June to the end of August, photograph the kale at 6 pm every Monday.",
+        f"{KALE} | at=18:00 weekdays=mon first_day=--06-01 last_day=--08-31",
+    ),
+    ("Photograph the kale every hour from 9 until the evening.", f"{KALE} | at=09:00 every_min=60 until=18:00"),
+]
+
+
+@pytest.mark.parametrize(("request_", "plan"), MONTHS, ids=name)
+def test_months_are_limits_of_a_standing_mission(request_, plan):
+    require_plan(GARDEN, AMIGA, request_, plan)
+
+
+def test_a_month_alone_is_no_time():
+    require_refusal(GARDEN, AMIGA, "Photograph the kale in July.", "in July")
+
+
+@pytest.mark.parametrize(
+    ("request_", "ways"),
+    [
+        ("Keep an eye on the air at the rose bed every so often until evening.", 2),
+        ("Keep an eye on the CO2 at the rose bed every so often until evening.", 3),
+        ("Keep an eye on the CO2 at the rose bed until evening.", 3),
+        ("Keep an eye on the CO2 at the rose bed.", 0),
+        ("Monitor the air at the rose bed every so often until evening.", 2),
+        ("Read the CO2 at the rose bed now and then.", 0),
+        ("Check the air at the rose bed.", 2),
+    ],
+    ids=name,
+)
+def test_it_is_asked_what_is_measured_and_how_often(request_, ways):
+    require_question(GARDEN, HUSKY, request_, ways)
+
+
+@pytest.mark.parametrize(
+    ("request_", "plan"),
+    [
+        ("Keep an eye on the CO2 at the rose bed every morning.", f"{CO2} | at=sunrise late_min=1440 done_by=12:00"),
+        (
+            "Keep an eye on the CO2 at the rose bed every half hour from 9 to 12.",
+            f"{CO2} | at=09:00 every_min=30 until=12:00 late_min=30",
+        ),
+        ("Watch the CO2 at the rose bed every hour for two hours.", f"{CO2}; wait 3600; co2; wait 3600; co2"),
+    ],
+    ids=name,
+)
+def test_what_is_watched_over_is_measured_as_often_as_is_said(request_, plan):
+    require_plan(GARDEN, HUSKY, request_, plan)
+
+
+def test_one_answer_leads_to_the_next_question():
+    request = "Keep an eye on the CO2 at the rose bed until evening."
+    first = Answer(question="How often?", answer="every 20 minutes")
+    asked = EnglishPlanner().plan(request, GARDEN, HUSKY, (first,))
+    assert isinstance(asked, Clarify)
+    then = Answer(question=asked.question, answer="at 08:00")
+    planned = EnglishPlanner().plan(request, GARDEN, HUSKY, (first, then))
+    assert isinstance(planned, Planned)
+    assert outline(planned.task).startswith(f"{CO2} | at=08:00 every_min=20 until=18:00")

@@ -405,7 +405,10 @@ def ground_measured(
     verb: Lex | None = None,
     how: ParameterValue | None = None,
 ) -> list[CaptureCommand] | None:
-    """Compose "test the soil at tree 4" and "probe the slope", which do not say what for."""
+    """Compose "test the soil at tree 4", "check the air in the yard" and "probe the slope", which say not what for."""
+    if ground is not None and "of_air" in ground.features:
+        of_air = [action for action in robot.actions if any("air" in word.split() for word in action.words)]
+        return [CaptureCommand((Thing(action.name),), place, used) for action in of_air] or None
     if not any(word is not None and word.features & {"of_soil", "probes"} for word in (ground, verb)):
         return None
     names = {quantity.name for quantity in robot.quantities if "soil" in quantity.name}

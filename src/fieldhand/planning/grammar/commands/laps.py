@@ -324,6 +324,18 @@ def captured_again_and_again(time: float, site: Site) -> Adjunct:
     return Adjunct(_rested, _Rest(time, site, recurs=True), late=True, may_lead=True)
 
 
+def _now_and_then(command: CaptureCommand, _: None) -> CaptureCommand | None:
+    """Return captures of which it is asked how often they are made."""
+    counts = {one.count or 1 for one in command.things}
+    return replace(command, every_s=1.0) if counts == {1} and command.times == 1 and not command.for_s else None
+
+
+@construction("adjunct: VAGUEOFTEN", cost=0.2)
+def captured_now_and_then() -> Adjunct:
+    """Compose "every so often"."""
+    return Adjunct(_now_and_then, None, late=True, may_lead=True)
+
+
 @construction(
     "adjunct: FOR [DET] time=amount", "adjunct: OVER [DET] time=amount", "adjunct: FORNEXT time=amount", cost=0.4
 )

@@ -364,7 +364,8 @@ def _read(
         case Home():
             return go_home(setting, state, command)
         case StopCommand():
-            if command.stays and state.plan.steps and any(_works_elsewhere(one.command) for one in following):
+            ends = command.stays and state.plan.steps and not state.scope
+            if ends and any(_works_elsewhere(one.command) for one in following):
                 raise NotComposed(message("something follows the end of the mission", context="fault"))
             return _stop(setting, state, command)
         case When():

@@ -146,6 +146,13 @@ class TimeQuestion:
 
 def asked_time(part: TimePart) -> TimeQuestion | None:
     """Return the question for the time of day, or for the days of several times; None if they are said."""
+    if part.vague and not part.every_min:
+        often = [
+            (message("every 30 minutes", context="answer"), replace(part, every_min=30, vague=False)),
+            (message("every hour", context="answer"), replace(part, every_min=60, vague=False)),
+            (message("every 2 hours", context="answer"), replace(part, every_min=120, vague=False)),
+        ]
+        return TimeQuestion(question=message("How often?", context="question"), choices=tuple(often))
     if part.disputed and part.window is not None:
         at = listed([say_day_time(one) for one in part.at])
         choices = [
@@ -190,6 +197,14 @@ def warned_times(part: TimePart) -> tuple[str, ...]:
     )
 
 
+def with_answers(part: TimePart, answers: Sequence[Answer]) -> tuple[TimePart, tuple[Answer, ...]]:
+    """Return the part with the times that answers name, and these answers: one may lead to the next question."""
+    given: tuple[Answer, ...] = ()
+    while len(given) < len(answers) and (found := with_answer(part, answers)) is not None:
+        part, given = found[0], (*given, found[1])
+    return part, given
+
+
 def with_answer(part: TimePart, answers: Sequence[Answer]) -> tuple[TimePart, Answer] | None:
     """Return the part with the time that an answer names, and the answer; None without an answer that names one."""
     asked = asked_time(part)
@@ -203,9 +218,12 @@ def with_answer(part: TimePart, answers: Sequence[Answer]) -> tuple[TimePart, An
         from fieldhand.planning.english.tokens import words_of
 
         given = list(_phrases(words_of(answer.answer)))
-        open_part = replace(part, disputed=False, choices=(), window=None, half="", at=() if part.disputed else part.at)
+        open_part = replace(
+            part, disputed=False, vague=False, choices=(), window=None, half="", at=() if part.disputed else part.at
+        )
         joined = open_part & given[0].meaning if len(given) == 1 else None
-        if joined is not None and asked_time(joined) is None:
+        following = None if joined is None else asked_time(joined)
+        if joined is not None and (following is None or following.question != asked.question):
             return joined, answer
     return None
 
