@@ -214,3 +214,24 @@ def test_one_answer_leads_to_the_next_question():
     planned = EnglishPlanner().plan(request, GARDEN, HUSKY, (first, then))
     assert isinstance(planned, Planned)
     assert outline(planned.task).startswith(f"{CO2} | at=08:00 every_min=20 until=18:00")
+
+
+HALF_HOURS = "at=09:00 every_min=30 until=12:00 late_min=30"
+BETWEEN = [
+    ("From 9 till noon read CO2 at the rose bed every half hour, waiting at the street gate in between.", HALF_HOURS),
+    ("Read CO2 at the rose bed every half hour from 9 to 12, and wait at the street gate in between.", HALF_HOURS),
+    ("Every half hour from 9 to noon, read CO2 at the rose bed, returning to the street gate in between.", HALF_HOURS),
+    ("Read CO2 at the rose bed every half hour from 9 to 12, parked at the street gate in the meantime.", HALF_HOURS),
+    ("Read CO2 at the rose bed every half hour from 9 to 12. Wait at the street gate between readings.", HALF_HOURS),
+    ("Every half hour from 9 to 12 read CO2 at the rose bed. In between, wait at the street gate.", HALF_HOURS),
+]
+
+
+@pytest.mark.parametrize(("request_", "when"), BETWEEN, ids=name)
+def test_between_runs_the_robot_waits_where_it_is_told(request_, when):
+    require_plan(GARDEN, HUSKY, request_, f"{CO2}; go GateIs(street gate) | {when} | stay")
+
+
+def test_a_wait_between_the_steps_of_one_mission_is_refused():
+    request = "Every day at noon read CO2 at the rose bed, waiting at the street gate in between."
+    require_refusal(GARDEN, HUSKY, request, "waiting without a time")

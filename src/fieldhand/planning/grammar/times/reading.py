@@ -14,7 +14,7 @@ from fieldhand.planning.grammar.chart import Chart, PhraseEdge
 from fieldhand.planning.grammar.times.constructions import GRAMMAR
 from fieldhand.planning.grammar.times.lexicon import time_edges
 from fieldhand.planning.grammar.times.meaning import TimePart
-from fieldhand.planning.grammar.times.waiting import AwaitedTime, awaited, waits_between
+from fieldhand.planning.grammar.times.waiting import AwaitedTime, awaited, between_runs, waits_between
 from fieldhand.planning.grammar.times.windows import without_a_time
 from fieldhand.planning.planner import Answer
 from fieldhand.task.plan import Span
@@ -95,15 +95,20 @@ def without_times(words: Sequence[Word], earlier: frozenset[int] = frozenset()) 
         return None  # "every ten minutes, six times" and "every ten minutes for an hour" are one mission
     if sum(phrase.meaning.says_how_often for phrase in phrases) > 1:
         return None  # "photograph row 3 every day, and row 4 every Monday"
-    taken = times | {token for wait in waits.values() for token in wait.dropped}
-    instead = {token: word for wait in waits.values() for token, word in wait.instead.items()}
+    between = between_runs(words, times) if part.every_min else None
+    moved = (*waits.values(), *(() if between is None else (between,)))
+    taken = times | {token for wait in moved for token in wait.dropped}
+    instead = {token: word for wait in moved for token, word in wait.instead.items()}
     single = not part.repeats and len(part.weekdays) < 2
     if single and not all(_is_of_beginning(one, words, taken) for one in phrases):
         return None
     marks = {mark for phrase in phrases for mark in _marks_of(phrase, words)}
     return RequestTimes(
         words=tuple(instead.get(token, word) for token, word in enumerate(words) if token not in taken | marks),
-        said=tuple((words[_first(one, waits)].start, words[one.end - 1].end) for one in phrases),
+        said=(
+            *((words[_first(one, waits)].start, words[one.end - 1].end) for one in phrases),
+            *(() if between is None else ((words[k].start, words[k].end) for k in sorted(between.dropped))),
+        ),
         part=part,
         beside=tuple(span for phrase in phrases for span in _beside(phrase, words)),
     )
