@@ -23,7 +23,8 @@ _STAYS = frozenset({"waiting", "staying", "standing", "resting", "parking", "par
 _RETURNS = frozenset({"return", "returning", "go", "going", "come", "coming", "drive", "driving"})
 _BETWEEN = (
     ("in", "between"), ("between", "readings"), ("between", "the", "readings"), ("between", "runs"), ("inbetween",),
-    ("between", "rounds"), ("between", "the", "rounds"), ("between", "times"), ("in", "the", "meantime"), ("meanwhile",),
+    ("between", "rounds"), ("between", "the", "rounds"), ("between", "times"), ("in", "the", "meantime"),
+    ("meanwhile",),
     ("between", "visits"), ("between", "measurements"), ("between", "pictures"), ("between", "the", "pictures"),
     ("each", "time"), ("between", "them"), ("after", "each"), ("after", "each", "one"), ("after", "each", "reading"),
 )  # fmt: skip
