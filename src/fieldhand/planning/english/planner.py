@@ -62,6 +62,8 @@ class EnglishPlanner:
         from fieldhand.planning.refusals.understood import parse_parts
 
         refused = helpful(outcome, parse_parts(request, site, robot), lambda text: self._plain(text, site, robot))
+        once = {reason.what: reason for reason in reversed(refused.reasons)}
+        refused = replace(refused, reasons=tuple(reversed(once.values())))
         return asked_to_leave_out(
             request, refused, lambda told: self._plain(request, site, robot, answers, (told,)), answers, site, robot
         )
@@ -83,6 +85,7 @@ class EnglishPlanner:
         if found := _unplanned(early_wishes(words, lexicon_for(robot, site)), words, robot, earlier):
             from fieldhand.planning.refusals.helping import wish_reasons
 
+            found = _without_known_times(found, words, earlier)
             return Refused(reasons=tuple(wish_reasons(found, request, words, site, robot)), planner=NAME)
         if missing := tuple(missing_blocks(words, site)):
             return Refused(reasons=missing, planner=NAME)
@@ -173,6 +176,20 @@ def _earlier(words: Sequence[Word], site: Site, robot: RobotProfile) -> frozense
     from fieldhand.planning.grammar.planting_words import planting_words
 
     return past_words(words, lexicon_for(robot, site), camera_of(robot)) | planting_words(words, site)
+
+
+def _without_known_times(found: Sequence[Wish], words: Sequence[Word], earlier: frozenset[int]) -> Sequence[Wish]:
+    """Return wishes without the times that could be planned: "turn the hay this afternoon" lacks an action only."""
+    from fieldhand.planning.grammar.times import without_times
+
+    times = without_times(words, earlier)
+    said = () if times is None or times.timing("") is None else times.said
+    rest = []
+    for wish in found:
+        first, last = wish.span(words)
+        if not wish.kind.now and not any(start <= first and last <= end for start, end in said):
+            rest.append(wish)
+    return rest or found
 
 
 def _unplanned(

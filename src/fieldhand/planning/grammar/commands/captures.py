@@ -387,6 +387,12 @@ def _act_on(verb: Lex, place: PlaceMeaning, used: int) -> CaptureCommand:
     return CaptureCommand((Thing(naming.actions[0]),), place, used, relation="of")
 
 
+@construction("capture: NICEIF place=place WERE verb=ACTV", "capture: GERUNDASK verb=ACTV place=place", cost=0.3)
+def wished_act(verb: Lex, place: PlaceMeaning, used: int) -> CaptureCommand:
+    """Compose "it would be great if the yellow trees were photographed"."""
+    return _act_on(verb, place, used)
+
+
 @construction(
     "capture: MEASURE DET ground=GROUND relation place=place",
     "capture: MEASURE DET ground=GROUND how=parameter relation place=place",

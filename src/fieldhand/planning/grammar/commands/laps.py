@@ -325,7 +325,9 @@ def captured_again_and_again(time: float, site: Site) -> Adjunct:
 
 
 def _now_and_then(command: CaptureCommand, _: None) -> CaptureCommand | None:
-    """Return captures of which it is asked how often they are made."""
+    """Return captures of which it is asked how often they are made; along rows it may be said how far apart."""
+    if command.place is not None and are_rows(command.place.selector):
+        return None
     counts = {one.count or 1 for one in command.things}
     return replace(command, every_s=1.0) if counts == {1} and command.times == 1 and not command.for_s else None
 

@@ -38,6 +38,12 @@ _NOUNS_IN_ED = frozenset({"need", "bed", "seedbed", "shed", "seed", "weed", "ree
 _JOINING = frozenset({"please", "and", "but", "then"})
 _DAY_MIN = 24 * 60
 
+#: Participles that do not end as other verbs do.
+_PARTICIPLES = frozenset({"taken", "seen", "done", "made", "shot", "found", "mown", "cut", "driven", "read"})
+#: Words of clauses that want something done, and of those that tell of something that was done.
+_WANTING = frozenset({"want", "wants", "need", "needs", "like", "should", "must", "get", "gets", "let"})
+_TELLING = frozenset({"was", "were", "been", "had", "has", "have", "which", "that", "who", "we", "they", "not"})
+
 #: Words behind which a part of this day may be past.
 _PAST = frozenset({"was", "were", "had", "did", "got", "been", "has", "have", "already"})
 
@@ -287,9 +293,23 @@ def _is_of_mission(phrase: PhraseEdge, words: Sequence[Word]) -> bool:
     before = words[phrase.start - 1] if phrase.start else None
     if before is None or before.kind in ("stop", "comma"):
         return True
-    return before.norm not in _OF_SOMETHING_ELSE and not (
-        before.norm.endswith("ed") and before.norm not in _NOUNS_IN_ED
-    )
+    past = before.norm in _PARTICIPLES or (before.norm.endswith("ed") and before.norm not in _NOUNS_IN_ED)
+    if past:
+        return _is_wanted(words[: phrase.start - 1])
+    return before.norm not in _OF_SOMETHING_ELSE
+
+
+def _is_wanted(before: Sequence[Word]) -> bool:
+    """Return True if a participle behind some words of a clause is one of what is to be done: "has to be mown"."""
+    clause = [word.norm for word in before]
+    for k in range(len(before) - 1, -1, -1):
+        if before[k].kind in ("comma", "stop"):
+            clause = clause[k + 1 :]
+            break
+    if clause[-2:] == ["to", "be"]:
+        return {"had", "was", "were"}.isdisjoint(clause)  # "has to be mown"
+    wanted = not _WANTING.isdisjoint(clause) or clause[-1:] == ["be"]
+    return wanted and _TELLING.isdisjoint(clause)
 
 
 def _is_of_beginning(phrase: PhraseEdge, words: Sequence[Word], taken: frozenset[int]) -> bool:
@@ -302,7 +322,10 @@ def _is_of_beginning(phrase: PhraseEdge, words: Sequence[Word], taken: frozenset
         alone = phrase.end == len(words) or words[phrase.end].kind == "stop"
         return alone or not any(word.kind == "word" for word in before)
     sentences = [word for word in before if word.kind == "stop"]
-    if phrase.meaning.day == "today" and phrase.meaning.takes is not None and any(w.norm in _PAST for w in before):
+    past = any(
+        word.norm in _PAST and (at + 1 == len(before) or before[at + 1].norm != "to") for at, word in enumerate(before)
+    )  # but for "has to be mown"
+    if phrase.meaning.day == "today" and phrase.meaning.takes is not None and past:
         return False  # "the trees that were dry this morning"
     return not sentences and not any(_parts(before, k) for k in range(len(before)))
 
