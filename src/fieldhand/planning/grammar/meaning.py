@@ -49,6 +49,8 @@ UNKNOWN_THINGS = frozenset({LAST_THING, LAST_THINGS, UNSAID_THING})
 SAME_VALUE = "="
 #: Value of a parameter of which only is said that it is little or much ("not too much").
 OPEN_VALUE = "?"
+#: Seconds between captures that are made every so often, which it does not say.
+NOW_AND_THEN_S = 1e-3
 #: Rows that were named before ("these rows"), until the dialogue knows which.
 THOSE_ROWS = s.Rows(first="those rows", last="the last of those rows")
 #: Zone that was spoken of before ("mow it"), until the dialogue knows which.
