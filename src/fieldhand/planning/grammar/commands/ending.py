@@ -83,9 +83,12 @@ def time_up() -> str:
 )  # fmt: skip
 def there_in_time(way: DriveCommand | Home, used: int) -> DriveCommand | Home:
     """Compose "be at the table when the time is over"."""
-    if isinstance(way, DriveCommand) and not way.place.selector.named_marker:
-        return replace(way, used=used, returns=True, ends=True)
-    return replace(way, used=used)
+    if not isinstance(way, DriveCommand):
+        return replace(way, used=used)
+    marker = way.place.selector.named_marker
+    if marker in ("start", "end"):
+        return Home("return_to_start" if marker == "start" else "return_to_end", used)
+    return replace(way, used=used, returns=True, ends=True)
 
 
 @construction("by_time: BEAT [relation] where=region [COMMA] time_up", cost=0.2, given=("site",))
