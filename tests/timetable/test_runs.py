@@ -95,6 +95,19 @@ def test_several_runs_of_one_day(first: str, last: str, day: int) -> None:
     assert [run[4:] for run in runs] == [f"{day:02d} 13:00", f"{day:02d} 18:00"]
 
 
+@pytest.mark.parametrize(
+    ("first", "last", "runs"),
+    [
+        ("--02-01", "--03-03", ["Tue 02 06:00", "Wed 03 06:00"]),  # under way
+        ("--03-04", "--03-05", ["Thu 04 06:00", "Fri 05 06:00"]),
+        ("--11-01", "--03-02", ["Tue 02 06:00"]),  # over the end of the year
+    ],
+)
+def test_runs_of_a_part_of_each_year_begin_at_once_within_it(first: str, last: str, runs: list[str]) -> None:
+    schedule = Schedule(at=(DayTime(clock="06:00"),), first_day=first, last_day=last)
+    assert local_runs(schedule, calendar(MONDAY), 9) == runs
+
+
 def test_a_schedule_ends_with_its_last_day_or_the_approval() -> None:
     daily = Schedule(at=(DayTime(clock="06:00"),), last_day="wed")
     assert len(list(calendar(MONDAY).runs(daily, MONDAY))) == 2

@@ -67,7 +67,10 @@ _DONE = _pattern(
     )
 )
 #: Times at which a mission may be to start anyway, if they are all that a request says of time.
-_START = _pattern((r"this (?:morning|afternoon|evening)", r"(?:before|after) (?:lunch|lunchtime)"))
+_START = _pattern((r"this (?:morning|afternoon|evening)", r"(?:before|after|by) (?:lunch|lunchtime)"))
+#: A period in which something is, and the beginning of a clause that says so ("the aphids are bad this year").
+_NOW = _pattern((r"this (?:week|month|year|season)",))
+_STATES = re.compile(r"(?:because )?(?:the|our|my|it|they|there|these|those)\b.*\b(?:is|are|was|were|looks?|seems?)\b")
 #: Words for other times, which leave open what a time is the time of.
 _OTHER_TIMES = frozenset({"again", "later", "now", "then", "afterwards"})
 #: Words between which and a time something earlier is told of.
@@ -136,6 +139,9 @@ def _is_told(match: re.Match[str], facts: RequestFacts, sentence: int, first: in
     )
     if _WAS_DONE.search(" ".join(before)) is not None:
         return True
+    clause = " ".join(before).rpartition(" , ")[2]
+    if _NOW.fullmatch(match[0]) is not None and _STATES.match(clause) is not None:
+        return not [text for text in after if text not in (".", "!", ",")]
     if past:
         told = " ".join(before)
         return _REASON.search(told) is not None or _DID.match(f"{told} {match[0]}".strip()) is not None

@@ -17,6 +17,8 @@ from fieldhand.timetable.days import day_of
 PUNCTUAL_MIN = 15
 #: Days after which the search for another run ends: no sun for half a year, or a date in a later year.
 _SEARCHED_DAYS = 400
+#: Days from the first day of a part of a year to its last one, at most.
+_YEAR_DAYS = 364
 _MIDNIGHT = DayTime(clock="00:00")
 
 
@@ -107,8 +109,7 @@ class Calendar:
 
     def _standing(self, schedule: Schedule, locality: Locality, after: datetime) -> Iterator[DueRun]:
         approved = self.approved.astimezone(locality.zone).date()
-        first = day_of(schedule.first_day, approved)
-        last = day_of(schedule.last_day, max(first, approved)) if schedule.last_day else date.max
+        first, last = _first_and_last(schedule, approved)
         if schedule.every_days < 1 or schedule.every_min < 0:
             raise TaskError(
                 message(
@@ -142,6 +143,15 @@ class Calendar:
             ends.append(done)
             latest = max(due, min(latest, done - timedelta(seconds=self.lasts_s)))
         return DueRun(due=due, latest=latest, done_by=min(ends, default=None))
+
+
+def _first_and_last(schedule: Schedule, approved: date) -> tuple[date, date]:
+    """Return the first and the last day; of a part of each year the part that is under way, or else the next one."""
+    if schedule.first_day.startswith("--") and schedule.last_day.startswith("--"):
+        last = day_of(schedule.last_day, approved)
+        return day_of(schedule.first_day, last - timedelta(days=_YEAR_DAYS)), last
+    first = day_of(schedule.first_day, approved)
+    return first, day_of(schedule.last_day, max(first, approved)) if schedule.last_day else date.max
 
 
 def _clock_times(schedule: Schedule, day: date, locality: Locality) -> list[datetime]:

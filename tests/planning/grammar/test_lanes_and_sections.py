@@ -62,6 +62,7 @@ PLANNED = [
 ASKED = [
     (BAYS, AMIGA, "photograph every plant of row 2 in the new bay", 2),
     (BAYS, AMIGA, "photograph every plant of the first row of the new bay", 2),
+    (DEMO, HUSKY, "read CO2 every so often along row 3", 0),
 ]
 
 REFUSED = [
@@ -81,7 +82,6 @@ REFUSED = [
     ),
     (PASTURE, HUSKY, "take a thermal picture every few metres along the sheep fence", "it does not say how far apart"),
     (DEMO, HUSKY, "take a picture every few trees in row 3", "it does not say how far apart"),
-    (DEMO, HUSKY, "read CO2 every so often along row 3", "it does not say how far apart"),
     (PASTURE, TRACTOR, "find the thistles on the bank and spray only those", "to recognise something"),
     (PASTURE, TRACTOR, "mow the bank but watch out for fawns", "to recognise something"),
     (PASTURE, HUSKY, "read CO2 at six random points on the bank, at least 8 m apart", "points keep no least distance"),

@@ -10,6 +10,7 @@ from fieldhand.language import Number, message
 from fieldhand.planning.english.lexicon import lexicon_for
 from fieldhand.planning.english.missing_blocks import missing_blocks
 from fieldhand.planning.english.tokens import Word, words_of
+from fieldhand.planning.english.watching_over import watched_over
 from fieldhand.planning.english.wishes import Wish, early_wishes
 from fieldhand.planning.grammar.planned import NAME
 from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Refused
@@ -45,6 +46,11 @@ class EnglishPlanner:
             RequestError: The request is empty, too long, or holds characters that no document can hold.
         """
         outcome = self._plain(request, site, robot, answers)
+        if isinstance(outcome, Planned) and (said := watched_over(words_of(request))) and not _recurs(outcome):
+            asked = message(
+                "'{said}': how often, and until when? Say it so: 'every 30 minutes from 9 to 12'.", said=said
+            )
+            return Clarify(question=asked, planner=NAME)
         if not isinstance(outcome, Refused) or not self._suggests:
             return outcome
         from fieldhand.planning.refusals.same_as_earlier import asked_what_was_done
@@ -56,6 +62,8 @@ class EnglishPlanner:
         from fieldhand.planning.refusals.understood import parse_parts
 
         refused = helpful(outcome, parse_parts(request, site, robot), lambda text: self._plain(text, site, robot))
+        once = {reason.what: reason for reason in reversed(refused.reasons)}
+        refused = replace(refused, reasons=tuple(reversed(once.values())))
         return asked_to_leave_out(
             request, refused, lambda told: self._plain(request, site, robot, answers, (told,)), answers, site, robot
         )
@@ -77,6 +85,7 @@ class EnglishPlanner:
         if found := _unplanned(early_wishes(words, lexicon_for(robot, site)), words, robot, earlier):
             from fieldhand.planning.refusals.helping import wish_reasons
 
+            found = _without_known_times(found, words, earlier)
             return Refused(reasons=tuple(wish_reasons(found, request, words, site, robot)), planner=NAME)
         if missing := tuple(missing_blocks(words, site)):
             return Refused(reasons=missing, planner=NAME)
@@ -95,7 +104,13 @@ class EnglishPlanner:
     ) -> Outcome | None:
         """Plan a request that says when the mission runs; None if it says no such time."""
         from fieldhand.planning.grammar.reader import composed
-        from fieldhand.planning.grammar.times import asked_time, assumed_times, warned_times, with_answer, without_times
+        from fieldhand.planning.grammar.times import (
+            asked_time,
+            assumed_times,
+            warned_times,
+            with_answers,
+            without_times,
+        )
 
         times = without_times(words, _earlier(words, site, robot))
         if times is None:
@@ -105,8 +120,9 @@ class EnglishPlanner:
             missing_blocks(times.words, site)
         ):
             return None
-        answered = with_answer(times.part, answers)
-        part = times.part if answered is None else answered[0]
+        open_rhythm = times.part.repeats and not times.part.says_how_often and bool(watched_over(words))
+        said_part = replace(times.part, vague=times.part.vague or open_rhythm)
+        part, given = with_answers(said_part, answers)
         asked = asked_time(part)
         provisional = part if asked is None else asked.choices[0][1]
         timing = provisional.timing(times.said, zone="")
@@ -129,10 +145,10 @@ class EnglishPlanner:
             choices = tuple(said for said, _ in asked.choices)
             return Clarify(question=asked.question, choices=choices, planner=NAME, free=True)
         assumed, warned = assumed_times(part), warned_times(part)
-        if answered is None and not assumed and not warned:
+        if not given and not assumed and not warned:
             return outcome
         command = outcome.task.command
-        said = assumed if answered is None else (answered[1].sentence(), *assumed)
+        said = (*(answer.sentence() for answer in given), *assumed)
         warnings = (*command.warnings, *warned)
         stated = replace(command, assumptions=(*said, *command.assumptions), warnings=warnings)
         return replace(outcome, task=replace(outcome.task, command=stated))
@@ -147,6 +163,12 @@ def _waits_longer_than_interval(planned: Planned) -> bool:
     return waits >= 60.0 * schedule.every_min
 
 
+def _recurs(planned: Planned) -> bool:
+    """Return True for a mission that runs again and again, or waits between what it does."""
+    waits = any(isinstance(node, Wait) for node in walk(planned.task.composition.plan))
+    return waits or isinstance(planned.task.timing, Schedule)
+
+
 def _earlier(words: Sequence[Word], site: Site, robot: RobotProfile) -> frozenset[int]:
     """Return the numbers of the words that state a time of earlier missions, or when plants were sown."""
     from fieldhand.planning.grammar.earlier.past_words import past_words
@@ -154,6 +176,20 @@ def _earlier(words: Sequence[Word], site: Site, robot: RobotProfile) -> frozense
     from fieldhand.planning.grammar.planting_words import planting_words
 
     return past_words(words, lexicon_for(robot, site), camera_of(robot)) | planting_words(words, site)
+
+
+def _without_known_times(found: Sequence[Wish], words: Sequence[Word], earlier: frozenset[int]) -> Sequence[Wish]:
+    """Return wishes without the times that could be planned: "turn the hay this afternoon" lacks an action only."""
+    from fieldhand.planning.grammar.times import without_times
+
+    times = without_times(words, earlier)
+    said = () if times is None or times.timing("") is None else times.said
+    rest = []
+    for wish in found:
+        first, last = wish.span(words)
+        if not wish.kind.now and not any(start <= first and last <= end for start, end in said):
+            rest.append(wish)
+    return rest or found
 
 
 def _unplanned(

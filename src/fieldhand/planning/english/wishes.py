@@ -28,6 +28,9 @@ _BEFORE = frozenset({"of", "for", "with", "in", "at", "to", "from", "and", "any"
 #: Words for other times than one, and those that part the work or tell of something earlier.
 _OTHER_TIMES = frozenset({"now", "again", "later", "afterwards", "earlier", "repeat", "once", "twice", "first"})
 _PARTS = frozenset({"then", "was", "were", "been", "did", "had", "has", "have", "saw", "took", "since", "until"})
+#: First words of clauses that tell something, and their verbs.
+_SUBJECTS = frozenset({"the", "our", "my", "it", "they", "there", "these", "those", "this", "we"})
+_STATING = frozenset({"is", "are", "was", "were", "look", "looks", "seem", "seems"})
 _POLITE = frozenset({",", "please", "thanks"})
 #: What stands before the first word of a clause.
 _OPENING = (
@@ -118,11 +121,25 @@ def early_wishes(words: Sequence[Word], lexicon: Lexicon) -> list[Wish]:
     """Return the wishes that no reading can leave out."""
     entries = (lexicon.own.get((word.norm,)) for word in words)
     works = any(entry is not None and entry.kind in ("WORKV", "WORKN") for entry in entries)
-    found = _longest(_found(words, [kind for kind in wish_kinds() if kind.early and not (works and kind.works)]))
+    kinds = [kind for kind in wish_kinds() if kind.early and not (works and kind.works)]
+    found = [wish for wish in _longest(_found(words, kinds)) if not _is_told(wish, words)]
     times = [wish for wish in found if wish.kind.now]
     if len(times) == 1 and _is_of_whole_request(times[0], words):
         found.remove(times[0])
     return found
+
+
+def _is_told(wish: Wish, words: Sequence[Word]) -> bool:
+    """Return True for the time of a clause that tells something: "the aphids are bad this year"."""
+    if "is not a time" not in wish.kind.what or (wish.last < len(words) and words[wish.last].kind == "word"):
+        return False
+    begin = wish.first
+    while begin and words[begin - 1].kind not in ("comma", "stop"):
+        begin -= 1
+    told = [word.norm for word in words[begin : wish.first]]
+    if "because" in told:
+        told = told[told.index("because") + 1 :]
+    return begin > 0 and bool(told) and told[0] in _SUBJECTS and not _STATING.isdisjoint(told[1:])
 
 
 def says_start(words: Sequence[Word]) -> bool:
@@ -153,6 +170,7 @@ def wishes(words: Sequence[Word], lexicon: Lexicon) -> list[Wish]:
     nouns = frozenset(phrase for phrase, entry in lexicon.own.items() if entry.kind == "NOUN")
     names = list(_named(words, own))
     found = [wish for wish in _found(words, wish_kinds()) if not _is_own(wish, words, own, attributes, nouns)]
+    found = [wish for wish in found if not _is_told(wish, words)]
     return _longest([w for w in found if w.kind.early or not any(a <= w.first and w.last <= b for a, b in names)])
 
 

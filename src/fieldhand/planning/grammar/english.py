@@ -142,6 +142,11 @@ def _features() -> FeatureTable:
     return FeatureTable.read(_own(), lambda phrase: split(phrase) or (phrase,))  # a dash has no words
 
 
+def features_of(phrase: Phrase) -> frozenset[str]:
+    """Return the features of a phrase of English."""
+    return _features().of(phrase)
+
+
 @cache
 def _asked_by_adjective() -> Mapping[Phrase, Phrase]:
     """Return the names of readings by the questions for them: "how warm is the air"."""

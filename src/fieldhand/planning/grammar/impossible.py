@@ -386,6 +386,12 @@ def ends_of_rows(noun: Lex, ends: Lex) -> Impossible | None:
     return Impossible(message("of which rows?"), message("say 'both ends of row 3', or 'both ends of every row'"))
 
 
+@construction("rate=work_rate", given=("robot",))
+def rate_out_of_bounds(rate: Amount, robot: RobotProfile) -> Impossible | None:
+    """Compose "with 1200 litres per hectare", more than the sprayer gives."""
+    return parameter_out_of_bounds(ParameterValue(rate.number, rate.unit, ()), robot)
+
+
 @construction("how=parameter", given=("robot",))
 def parameter_out_of_bounds(how: ParameterValue, robot: RobotProfile) -> Impossible | None:
     """Compose "at 90 cm", deeper than the probe can go."""

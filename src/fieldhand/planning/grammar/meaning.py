@@ -49,6 +49,8 @@ UNKNOWN_THINGS = frozenset({LAST_THING, LAST_THINGS, UNSAID_THING})
 SAME_VALUE = "="
 #: Value of a parameter of which only is said that it is little or much ("not too much").
 OPEN_VALUE = "?"
+#: Seconds between captures that are made every so often, which it does not say.
+NOW_AND_THEN_S = 1e-3
 #: Rows that were named before ("these rows"), until the dialogue knows which.
 THOSE_ROWS = s.Rows(first="those rows", last="the last of those rows")
 #: The rows that were not named before: "each of the others".
@@ -799,6 +801,7 @@ class Connective:
         precedes: True for "before".
         in_turn: True for "then" that adds another place ("row 3, then row 4").
         each: True for "and after each one", before what is done then.
+        begins: True for "first of all", which begins a list unless something was to be done before it.
     """
 
     full: bool
@@ -814,6 +817,7 @@ class Connective:
     precedes: bool = False
     in_turn: bool = False
     each: bool = False
+    begins: bool = False
 
 
 #: Conditions that are checked throughout the mission.
@@ -905,3 +909,11 @@ class Said:
     """The clauses of a request, in order."""
 
     clauses: tuple[LinkedCommand, ...]
+
+    @property
+    def used(self) -> int:
+        """The tokens of the commands and of what joins them."""
+        used = 0
+        for clause in self.clauses:
+            used |= clause.command.used | (0 if clause.before is None else clause.before.used)
+        return used

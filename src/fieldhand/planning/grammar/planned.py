@@ -193,7 +193,7 @@ def _constraints(meant: Meant) -> Constraints:
             for rule, said in meant.ways
             for places, metres in rule.avoid
         ),
-        only_gates=tuple(OnlyGate(gate=gate, said=said) for rule, said in meant.ways for gate in rule.gates),
+        only_gates=_only_gates(meant),
         slow=tuple(
             SlowNear(
                 places=one.places,
@@ -205,6 +205,15 @@ def _constraints(meant: Meant) -> Constraints:
             for one in rule.slow
         ),
     )
+
+
+def _only_gates(meant: Meant) -> tuple[OnlyGate, ...]:
+    """Return the gates that the robot may pass, each once: "in by the north door, ... and out by the north door"."""
+    said: dict[str, tuple[p.Span, ...]] = {}
+    for rule, spans in meant.ways:
+        for gate in rule.gates:
+            said[gate] = (*said.get(gate, ()), *(span for span in spans if span not in said.get(gate, ())))
+    return tuple(OnlyGate(gate=gate, said=spans) for gate, spans in said.items())
 
 
 def _with_speed(constraints: Constraints, meant: Meant) -> Constraints:

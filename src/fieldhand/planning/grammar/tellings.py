@@ -42,6 +42,8 @@ _ADJECTIVES = ("ous", "ful", "ing", "ish", "ed", "able", "ible", "ive", "ic", "l
 _ADVERBS = frozenset({"FILLER", "HARMLESS", "INEACHCASE"})
 #: Categories of words that refer to what was said before.
 _BACK = frozenset({"IT", "ITS", "ONE", "OTHERS", "REFERRING", "SAME", "THERE"})
+#: Periods at the end of what is told ("this year").
+_LATELY = frozenset({"year", "season", "week", "month", "summer", "spring", "autumn", "winter"})
 #: Categories of words that may stand before a subject.
 _OPENING = frozenset({"AND", "ASIDE", "CONTRAST", "FILLER", "OPENER"})
 
@@ -182,6 +184,8 @@ def _has_verb(begun: Sequence[int], known: WordKinds, *, sentence: bool) -> bool
     if sentence:
         return any(at > 0 for at in verbs) or (len(begun) > 3 and sum(not known.kinds[k] for k in begun) > 1)
     person = bool(known.kinds[begun[1]] & _PEOPLE)
+    if verbs and verbs[0] > 1 and not any(known.kinds[k] for k in begun[1 : verbs[0]]):
+        return "IS" in known.kinds[begun[verbs[0]]]  # "the caterpillars are awful"
     return ("OWNER" in first or person) and any(at > 1 for at in verbs)
 
 
@@ -231,6 +235,8 @@ def _may_ask(at: int, said: Sequence[int], known: WordKinds, *, hopes: bool, ask
         return not (hopes or asks or follows & {"DET", "STATES"})
     if known.may_be(k, _COMMANDS):
         return not (known.is_past(k) or before & {"TELLS", "AUXILIARY", "HARMLESS", "IS"})
+    if word.norm in _LATELY and at > 1 and known.words[k - 1].norm == "this" and at + 1 == len(said):
+        return False  # "awful this year"
     if "LAST" in kinds and not follows:
         return False  # "last week"
     if (hopes and kinds & {"BATTERY", "TIMEWORD"}) or ("AT" in kinds and "IT" in follows):

@@ -388,6 +388,12 @@ def _act_on(verb: Lex, place: PlaceMeaning, used: int) -> CaptureCommand:
     return CaptureCommand((Thing(naming.actions[0]),), place, used, relation="of")
 
 
+@construction("capture: NICEIF place=place WERE verb=ACTV", "capture: GERUNDASK verb=ACTV place=place", cost=0.3)
+def wished_act(verb: Lex, place: PlaceMeaning, used: int) -> CaptureCommand:
+    """Compose "it would be great if the yellow trees were photographed"."""
+    return _act_on(verb, place, used)
+
+
 @construction(
     "capture: MEASURE DET ground=GROUND relation place=place",
     "capture: MEASURE DET ground=GROUND how=parameter relation place=place",
@@ -406,7 +412,10 @@ def ground_measured(
     verb: Lex | None = None,
     how: ParameterValue | None = None,
 ) -> list[CaptureCommand] | None:
-    """Compose "test the soil at tree 4" and "probe the slope", which do not say what for."""
+    """Compose "test the soil at tree 4", "check the air in the yard" and "probe the slope", which say not what for."""
+    if ground is not None and "of_air" in ground.features:
+        of_air = [action for action in robot.actions if any("air" in word.split() for word in action.words)]
+        return [CaptureCommand((Thing(action.name),), place, used) for action in of_air] or None
     if not any(word is not None and word.features & {"of_soil", "probes"} for word in (ground, verb)):
         return None
     names = {quantity.name for quantity in robot.quantities if "soil" in quantity.name}

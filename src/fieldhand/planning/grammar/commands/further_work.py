@@ -12,6 +12,7 @@ from fieldhand.planning.grammar.commands.parameters import with_parameter
 from fieldhand.planning.grammar.commands.sides import worked_on_one_side
 from fieldhand.planning.grammar.commands.working import Tract, along_tract, on_both_sides
 from fieldhand.planning.grammar.meaning import (
+    Allowed,
     Amount,
     Connective,
     LinkedCommand,
@@ -58,8 +59,8 @@ class FurtherGround:
 
 @construction("further: where=tract", cost=0.2)
 def further_ground(where: Tract) -> FurtherGround | None:
-    """Compose "the meadow" behind "mow the bank, then"."""
-    return None if where.optional else FurtherGround(where)
+    """Compose "the meadow" and "as much of it as the battery allows" behind "mow the bank, then"."""
+    return FurtherGround(where)
 
 
 @construction(
@@ -104,7 +105,13 @@ def worked_likewise(
     if joint.first or joint.precedes or joint.purpose or (joint.full and not joint.then):
         return None
     in_turn = joint.then or joint.in_turn
-    differs = not replace(one, how=None).is_plain or last.heading != "any" or last.sides != "one" or last.parameters
+    differs = (
+        one.where.optional
+        or not replace(one, how=None).is_plain
+        or last.heading != "any"
+        or last.sides != "one"
+        or last.parameters
+    )
     if not in_turn and not differs:
         return _worked_together(before, last, one, used, robot)
     own = used & ~joint.used
@@ -120,6 +127,24 @@ def worked_likewise(
             earlier = replace(before.clauses[-1], command=replace(last, parameters=parameters[0]))
             found.append(Said((*before.clauses[:-1], earlier, LinkedCommand(replace(joint, then=True), made))))
     return found or None
+
+
+@construction(
+    "said: before=said joint=joint case=allow [COMMA] [ADDS] one=further [ADDS]",
+    "said: before=said joint=joint [ADDS] one=further ADDS [COMMA] case=allow",
+    cost=0.2, given=("robot", "site"),
+)  # fmt: skip
+def worked_if_it_fits(
+    before: Said, joint: Connective, case: Allowed, one: FurtherGround, used: int, robot: RobotProfile, site: Site
+) -> list[Said] | None:
+    """Compose "mow the bank and, if there is time left, also the meadow"."""
+    if one.where.optional:
+        return None
+    fits = LinkedCommand(replace(joint, both=True), case)
+    found = worked_likewise(
+        before, replace(joint, then=True, used=0), one, used & ~case.used & ~joint.used, robot, site
+    )
+    return [Said((*way.clauses[:-1], fits, replace(way.clauses[-1], before=None))) for way in found or []]
 
 
 def _worked_together(

@@ -13,7 +13,14 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Adjunct
 from fieldhand.planning.grammar.commands.waits import LONGEST_WAIT_S
 from fieldhand.planning.grammar.commands.working import Tract
-from fieldhand.planning.grammar.meaning import THAT_GROUND, Amount, CaptureCommand, WorkCommand, rested_things
+from fieldhand.planning.grammar.meaning import (
+    NOW_AND_THEN_S,
+    THAT_GROUND,
+    Amount,
+    CaptureCommand,
+    WorkCommand,
+    rested_things,
+)
 from fieldhand.planning.grammar.places.areas import edges
 from fieldhand.planning.grammar.places.numbers import amount
 from fieldhand.planning.grammar.places.sampling import SamplingPath, bare_zone, is_keep_out
@@ -322,6 +329,20 @@ def rests_between_captures(time: float, site: Site) -> Adjunct:
 def captured_again_and_again(time: float, site: Site) -> Adjunct:
     """Compose "six times, every ten minutes" and "every ten minutes", for how long is said beside it."""
     return Adjunct(_rested, _Rest(time, site, recurs=True), late=True, may_lead=True)
+
+
+def _now_and_then(command: CaptureCommand, _: None) -> CaptureCommand | None:
+    """Return captures of which it is asked how often they are made."""
+    counts = {one.count or 1 for one in command.things}
+    return (
+        replace(command, every_s=NOW_AND_THEN_S) if counts == {1} and command.times == 1 and not command.for_s else None
+    )
+
+
+@construction("adjunct: VAGUEOFTEN", cost=0.2)
+def captured_now_and_then() -> Adjunct:
+    """Compose "every so often"."""
+    return Adjunct(_now_and_then, None, late=True, may_lead=True)
 
 
 @construction(

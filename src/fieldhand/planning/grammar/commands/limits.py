@@ -193,11 +193,36 @@ def at_least(check: Lex, least: Amount) -> Amount | None:
     "low_battery: check=CMP least=amount of_what [IS] LEFT",
     "low_battery: THEREIS check=CMP least=amount [of_what] LEFT [of_what]",
     "low_battery: THEREIS check=CMP least=amount of_what",
+    "low_battery: least=left_now",
     cost=0.1,
 )
 def low_battery(least: Amount, check: Lex | None = None) -> Amount | None:
     """Compose "the battery is down to 30 %"."""
     return least if least.unit == "percent" and (check is None or check.value[0] in ("lt", "le")) else None
+
+
+@construction(
+    "left_now: [THEREIS] [ONLY] least=reserve [IS] LEFT [of_what]",
+    "left_now: CONTRACTED [ONLY] least=reserve LEFT [of_what]",
+    "left_now: you=CONTRACTED DOWNAT least=reserve",
+    cost=0.1,
+)
+def left_now(least: Amount, you: Lex | None = None) -> Amount | None:
+    """Compose "only 30 % is left" and "you are down to 30 %"."""
+    return least if you is None or "of_the_robot" in you.features else None
+
+
+@construction(
+    "low_battery: [DET] BATTERY [IS] [AT] level=NUM",
+    "low_battery: [DET] BATTERY REACHES level=NUM",
+    "low_battery: [DET] BATTERY GOUNDER level=NUM",
+    "low_battery: [DET] BATTERY [IS] check=CMP level=NUM",
+    cost=0.4,
+)
+def low_number(level: Lex, check: Lex | None = None) -> Amount | None:
+    """Compose "the battery reaches 30", in percent."""
+    whole = level.value == int(level.value) and 1.0 < level.value <= 100.0
+    return low_battery(Amount(number=float(level.value), unit="percent"), check) if whole else None
 
 
 @construction(
@@ -253,15 +278,26 @@ def with_so_much(least: Amount, used: int) -> list[LimitClause] | None:
 @construction(
     "limit: back=home WITH least=reserve [LEFT]",
     "limit: RETURN BEFORE least=low_battery [LEFT]",
-    "limit: home in_case least=low_battery",
-    "limit: in_case least=low_battery [COMMA] [STOP] [AND] home",
+    "limit: homeward in_case least=low_battery",
+    "limit: in_case least=low_battery [COMMA] [STOP] [AND] homeward",
+    "limit: back=homeward at=AT least=reserve [LEFT]",
+    "limit: at=AT least=reserve [LEFT] [COMMA] [STOP] [AND] back=homeward",
     cost=0.2,
 )
-def home_with(least: Amount, used: int, back: Home | None = None) -> LimitClause | None:
-    """Compose "be back with 30 % of the battery" and "return if the battery drops below 25 %"."""
+def home_with(least: Amount, used: int, back: Home | None = None, at: Lex | None = None) -> LimitClause | None:
+    """Compose "be back with 30 % of the battery", "come home at 40 %" and "return if the battery drops below 25 %"."""
     if least.unit != "percent" or (back is not None and (back.then == "return_to_end" or back.to_it)):
         return None
+    if at is not None and "at_level" not in at.features:
+        return None
     return LimitClause(least, True, used, back=True)
+
+
+@construction("homeward: back=home", cost=0.0)
+@construction("homeward: TURNBACK", cost=0.1)
+def homeward(used: int, back: Home | None = None) -> Home:
+    """Compose "turn back" behind or before a state of the battery."""
+    return Home(None, used) if back is None else back
 
 
 @construction("said: HAVE most=amount FOR place=place joint=joint rest=said", cost=0.4)

@@ -57,6 +57,9 @@ _LEADS_ON = (
     When | Otherwise | Lead | LimitClause | WayRule | Allowed | InAnOrder | Failing | After | PaceClause | SettleClause
 )
 
+#: Features of words for what is done before everything else ("before all of that", "before you set off").
+_BEFORE_ALL = ("of_several", "before_all")
+
 
 @construction(
     "command: one=capture",
@@ -110,7 +113,7 @@ def joint_with_comma(used: int, both: Lex, then: str = "") -> Connective:
 )
 def but_first(used: int, word: Lex) -> Connective:
     """Compose ", but first" and "before all of that,"."""
-    return Connective(False, True, used, first=True, of_all="of_several" in word.features)
+    return Connective(False, True, used, first=True, of_all=not word.features.isdisjoint(_BEFORE_ALL))
 
 
 @construction("joint: [COMMA] both=and_or_but [after=then]", "joint: COMMA [after=then]", "joint: after=then", cost=0.2)
@@ -127,7 +130,8 @@ def joint(used: int, after: str = "", both: Lex | None = None) -> Connective | N
 def then_joint(used: int, then: str, before: Lex | None = None, both: Lex | None = None) -> Connective:
     """Compose "and then"; "from there" alone begins a sentence."""
     from_here = then == "from here"
-    return Connective(from_here and before is None and both is None, True, used, from_here=from_here)
+    full = from_here and before is None and both is None
+    return Connective(full, True, used, from_here=from_here, begins=then == "at first")
 
 
 @construction(
@@ -145,10 +149,10 @@ def full_stop(used: int) -> Connective:
     return Connective(True, False, used)
 
 
-@construction("joint: FULLSTOP OPENER [COMMA]", cost=0.1)
-def full_stop_opener(used: int) -> Connective:
+@construction("joint: FULLSTOP word=OPENER [COMMA]", cost=0.1)
+def full_stop_opener(word: Lex, used: int) -> Connective | None:
     """Compose ". Right,"."""
-    return Connective(True, True, used)
+    return None if "before_all" in word.features else Connective(True, True, used)
 
 
 @construction("joint: FULLSTOP word=THEN COMMA", cost=0.3)
@@ -160,7 +164,7 @@ def full_stop_after(word: Lex, used: int) -> Connective | None:
 @construction("joint: FULLSTOP [and_or_but] then=then [COMMA]", cost=0.1)
 def full_stop_then(used: int, then: str) -> Connective:
     """Compose ". Then"."""
-    return Connective(True, True, used, from_here=then == "from here")
+    return Connective(True, True, used, from_here=then == "from here", begins=then == "at first")
 
 
 @construction("joint: INORDERTO", cost=1.0)
@@ -322,10 +326,10 @@ def before_doing(word: Lex, used: int) -> Connective | None:
     return Connective(False, True, used, precedes=True) if "before_doing" in word.features else None
 
 
-@construction("then: ONTHEWAY", cost=0.1)
-def then_on_the_way() -> str:
+@construction("then: word=ONTHEWAY", cost=0.1)
+def then_on_the_way(word: Lex) -> str:
     """Compose "on the way back" before what is done then."""
-    return "then"
+    return "homewards" if "homewards" in word.features else "then"
 
 
 @construction("then: word=THEN", cost=0.0)
@@ -333,7 +337,9 @@ def then(word: Lex) -> str | None:
     """Compose "then"."""
     if "after_doing" in word.features:
         return None
-    return "from here" if "from_here" in word.features else "then"
+    if "from_here" in word.features:
+        return "from here"
+    return "at first" if "begins" in word.features else "then"
 
 
 @construction("joint: [COMMA] WHILE", cost=0.3)
@@ -515,10 +521,10 @@ def opener(used: int) -> Connective:
     return Connective(False, True, used)
 
 
-@construction("opened: then [COMMA]", cost=0.0)
-def then_at_first(used: int) -> Connective:
+@construction("opened: word=then [COMMA]", cost=0.0)
+def then_at_first(word: str, used: int) -> Connective | None:
     """Compose "firstly," at the beginning of a request."""
-    return Connective(False, True, used)
+    return None if word == "homewards" else Connective(False, True, used)
 
 
 @construction("opened: SEENAS site AS [DET] RECTANGLE [COMMA] [AND]", cost=0.0)
@@ -534,8 +540,11 @@ def first_of_all(first: Connective, one: Command) -> Said:
 
 
 @construction("said: one=capture FIRSTONE", "said: one=drive FIRSTONE", "said: one=work FIRSTONE", cost=0.2)
-def what_is_first(one: CaptureCommand | DriveCommand | WorkCommand, used: int) -> Said | None:
+@construction("said: one=capture word=FIRSTLY", cost=0.2)
+def what_is_first(one: CaptureCommand | DriveCommand | WorkCommand, used: int, word: Lex | None = None) -> Said | None:
     """Compose "photograph tree 4 first"; "photograph trees 4 and 9, tree 9 first" is an order."""
+    if word is not None and "before_all" not in word.features:
+        return None
     where = one.along if isinstance(one, WorkCommand) else None if one.place is None else one.place.selector
     places = () if where is None else named_places(where)
     if len(set(places)) < len(places):
@@ -546,7 +555,7 @@ def what_is_first(one: CaptureCommand | DriveCommand | WorkCommand, used: int) -
 @construction("said: before=said joint=joint tests=first_tested COMMA act=capture [COMMA] AND halts", cost=0.3)
 def first_captured(before: Said, joint: Connective, tests: AllTests, act: CaptureCommand, used: int) -> Said:
     """Compose ". At the first one over 39 degC, measure CO2 and stop"."""
-    own = used & ~act.used & ~joint.used & ~_used_by(before)
+    own = used & ~act.used & ~joint.used & ~before.used
     there = LinkedCommand(Connective(False, False, 0, bare=True), replace(act, relation="at"))
     return Said((*before.clauses, LinkedCommand(joint, UntilCondition(tests, own)), there))
 
@@ -584,6 +593,8 @@ def next_command(before: Said, joint: Connective, one: Command) -> Said | None:
         return None  # "trees 4 and 9, but tree 9 before tree 12"
     if joint.then and isinstance(one, Lead) and one.relation == "of" and one.place.shape == "area":
         return None  # "the tree at the end of row 3"
+    if joint.begins and isinstance(before.clauses[-1].command, CaptureCommand | WorkCommand):
+        joint = replace(joint, first=True, of_all=True)  # "photograph row 3. First of all, read CO2 at tree 4"
     return Said((*before.clauses, LinkedCommand(joint, one)))
 
 
@@ -592,7 +603,7 @@ def so_command(before: Said, word: Lex, one: Command, used: int) -> Said | None:
     """Compose "(is it high), so take a picture"."""
     if "consequence" not in word.features or not isinstance(before.clauses[-1].command, When):
         return None
-    joint = Connective(False, False, used & ~one.used & ~_used_by(before))
+    joint = Connective(False, False, used & ~one.used & ~before.used)
     return Said((*before.clauses, LinkedCommand(joint, one)))
 
 
@@ -672,7 +683,7 @@ def also_there(before: Said, one: Lead, used: int) -> Said | None:
     """Compose "(if it is below 3 degrees,) also in the wet corner", where the same is done."""
     if not isinstance(before.clauses[-1].command, When):
         return None
-    return Said((*before.clauses, LinkedCommand(None, replace(one, used=used & ~_used_by(before)))))
+    return Said((*before.clauses, LinkedCommand(None, replace(one, used=used & ~before.used))))
 
 
 @construction(
@@ -683,7 +694,7 @@ def also_there(before: Said, one: Lead, used: int) -> Said | None:
 )
 def stopped_and_home(before: Said, joint: Connective, way: Home, tests: AllTests, used: int) -> Said:
     """Compose "... Stop and come home as soon as one is above 500 ppm."."""
-    own = used & ~way.used & ~_used_by(before)
+    own = used & ~way.used & ~before.used
     ends = LinkedCommand(joint, UntilCondition(tests, own))
     return Said((*before.clauses, ends, LinkedCommand(Connective(False, False, 0, both=True), way)))
 
@@ -691,17 +702,9 @@ def stopped_and_home(before: Said, joint: Connective, way: Home, tests: AllTests
 @construction("said: before=said FULLSTOP BY level=LEVEL DEFINED test=predicate [by=measured_by]", cost=0.2)
 def with_level(before: Said, level: Lex, test: Test, used: int, by: str = "") -> Said | None:
     """Compose "... By hot I mean over 37 degC.", of what was said to be hot."""
-    own = used & ~_used_by(before)
+    own = used & ~before.used
     clauses = tuple(replace(one, command=_at_threshold(one.command, level, test, by, own)) for one in before.clauses)
     return Said(clauses) if clauses != before.clauses else None
-
-
-def _used_by(said: Said) -> int:
-    """Return the tokens of commands and of what joins them."""
-    used = 0
-    for clause in said.clauses:
-        used |= clause.command.used | (0 if clause.before is None else clause.before.used)
-    return used
 
 
 def _at_threshold(command: Command, level: Lex, test: Test, by: str, used: int) -> Command:
@@ -747,7 +750,7 @@ def or_there(
         return None
     if last.place is None or last.place.shape != "one":
         return None
-    failing = replace(one, used=used & ~_used_by(before))
+    failing = replace(one, used=used & ~before.used)
     beside = swapped(place.selector, s.Here(), last.place.selector)  # "the tree next to it", which is not reached
     there = replace(last, place=replace(place, selector=beside, beside=False), used=place.tokens)
     return Said((*before.clauses, LinkedCommand(joint, failing), LinkedCommand(None, there)))
@@ -771,7 +774,7 @@ def either_there(first: PlaceMeaning, one: Failing, second: PlaceMeaning, act: C
 )
 def so_often_first(times: int, rest: Said, used: int) -> Said:
     """Compose "do this three times: photograph tree 4 and measure CO2 at tree 9"."""
-    again = Again(None, used & ~_used_by(rest), times=times, in_all=True, whole=True)
+    again = Again(None, used & ~rest.used, times=times, in_all=True, whole=True)
     return Said((LinkedCommand(None, again), *rest.clauses))
 
 

@@ -86,3 +86,34 @@ def from_tree_to_tree(first: Lex, last: Lex, site: Site, rows: s.Selector | None
             inside = rows is None or ends <= (ids_of(rows, site) or set())
             return Tract(part, "rows") if inside and len(ids_of(part, site) or ()) == at[1] - at[0] + 1 else None
     return None
+
+
+def _plants_of(row: Row, site: Site) -> set[str]:
+    return {site.trees[tree].place.id for tree in row.trees}
+
+
+@construction(
+    "tract: DET MIDDLE [n=count] noun=ROW", "tract: ALONG DET MIDDLE [n=count] noun=ROW",
+    "tract: DET n=count MIDDLE noun=ROW", "tract: DET MIDDLE [n=count] noun=ROW in_ where=region",
+    "tract: DET MIDDLE [n=count] noun=ROW OF where=region", "tract: DET n=count MIDDLE noun=ROW OF where=region",
+    "tract: DET n=count MIDDLE noun=ROW in_ where=region", cost=0.1, given=("site",),
+)  # fmt: skip
+def middle_rows_of_sections(
+    noun: Lex, site: Site, n: int | None = None, where: s.Selector | None = None
+) -> list[Tract] | None:
+    """Compose "the middle row" of sections whose rows are numbered on, and of one that is a zone as well."""
+    every = [row.name for row in site.planting.rows]
+    own = len(site.planting.blocks) > 1 or where is not None
+    if not own or noun.plural != (n is not None) or n not in (None, 2) or len({*every}) < len(every):
+        return None
+    plants = None if where is None else ids_of(where, site) or set()
+    there = (row for row in site.planting.rows if plants is None or _plants_of(row, site) <= plants)
+    names = [row.name for row in there]
+    if len(names) < 2 or not all(name.isdecimal() for name in names):
+        return None
+    names.sort(key=int)
+    half, odd = divmod(len(names), 2)
+    middle = [s.Rows(first=one, last=one) for one in names[half - 1 + odd : half + 1]]
+    if n == 2:
+        return [Tract(s.UnionOf(parts=tuple(middle)), "rows")] if len(middle) == 2 else None
+    return [Tract(one, "rows") for one in middle]

@@ -172,7 +172,7 @@ def several_gates(first: tuple[str, ...], second: tuple[str, ...]) -> tuple[str,
 
 
 @construction(
-    "way_rule: ONLYVIA gates=gates", "way_rule: VIAGATE gates=gates ONLY", "way_rule: word=ENTERBY gates=gates",
+    "way_rule: ONLYVIA gates=gates", "way_rule: VIAGATE gates=gates ONLY", "way_rule: word=ENTERBY gates=gates [ONLY]",
     cost=0.0,
 )  # fmt: skip
 def only_gates(gates: tuple[str, ...], used: int, word: Lex | None = None) -> WayRule:
@@ -251,6 +251,22 @@ def rule_behind(before: Said, rule: WayRule, site: Site, joint: Connective | Non
     if rule.leaves and joint is not None and joint.then:
         return None  # "then leave through the south door": at that moment
     return Said((*_keeping(before, rule, site), LinkedCommand(joint, rule)))
+
+
+@construction("out_again: OUTSAME SAMEDOOR", cost=0.1)
+def out_again(used: int) -> int:
+    """Compose "out the same door again", behind the gate by which it came in."""
+    return used
+
+
+@construction("said: before=said joint=joint out=out_again", "said: before=said out=out_again", cost=0.1)
+def out_the_same_way(before: Said, out: int, joint: Connective | None = None) -> Said | None:
+    """Compose "in through the south door, ... and out the same way": the only gate that it may pass."""
+    rules = [one.command for one in before.clauses if isinstance(one.command, WayRule) and one.command.gates]
+    if len(rules) != 1 or len(rules[0].gates) != 1:
+        return None
+    known = replace(rules[0], used=rules[0].used | out | (0 if joint is None else joint.used))
+    return Said(tuple(replace(one, command=known) if one.command == rules[0] else one for one in before.clauses))
 
 
 @construction("said: rule=way_rule joint=joint rest=said", cost=0.2, given=("site",))

@@ -364,6 +364,9 @@ def _read(
         case Home():
             return go_home(setting, state, command)
         case StopCommand():
+            ends = command.stays and state.plan.steps and not state.scope
+            if ends and any(_works_elsewhere(one.command) for one in following):
+                raise NotComposed(message("something follows the end of the mission", context="fault"))
             return _stop(setting, state, command)
         case When():
             begins = state.commands_in_sentence == 0
@@ -508,6 +511,13 @@ def _has_own_place(command: Command) -> bool:
     if not isinstance(command, CaptureCommand | DriveCommand):
         return isinstance(command, Home | StopCommand)
     return command.place is not None and command.place.shape == "one" and not command.place.selector.relative
+
+
+def _works_elsewhere(command: Command) -> bool:
+    """Return True for work that is done at a place of its own."""
+    if isinstance(command, CaptureCommand | Lead):
+        return command.place is not None and not is_spoken_of(command.place)
+    return isinstance(command, WorkCommand) and command.along is not None
 
 
 def _way_home(following: Sequence[LinkedCommand], *, begins: bool) -> list[LinkedCommand]:

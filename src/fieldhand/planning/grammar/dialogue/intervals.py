@@ -16,6 +16,7 @@ from fieldhand.planning.grammar.dialogue.state import (
 )
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
+    NOW_AND_THEN_S,
     Again,
     CaptureCommand,
     Command,
@@ -140,6 +141,8 @@ def at_intervals(
     if not command.every_s and not command.for_s:
         return state, command
     said = setting.quoted(command.used)
+    if command.every_s == NOW_AND_THEN_S:
+        raise OpenQuestion(message("'{said}': how often, or how far apart?", said=said), command.used)
     if not command.for_s:
         raise OpenQuestion(message("'{said}': how often, or for how long?", said=said), command.used)
     if not 0.0 < command.every_s <= command.for_s:

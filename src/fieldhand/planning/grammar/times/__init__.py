@@ -5,8 +5,8 @@ from fieldhand.planning.grammar.times.reading import (
     asked_time,
     assumed_times,
     warned_times,
-    with_answer,
+    with_answers,
     without_times,
 )
 
-__all__ = ["RequestTimes", "asked_time", "assumed_times", "warned_times", "with_answer", "without_times"]
+__all__ = ["RequestTimes", "asked_time", "assumed_times", "warned_times", "with_answers", "without_times"]

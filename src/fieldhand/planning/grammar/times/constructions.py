@@ -429,6 +429,12 @@ def end_of_a_month(month: Lex) -> str:
     return f"--{month.value:02d}-{monthrange(2001, month.value)[1]:02d}"
 
 
+@construction("day: STARTOF month=MONTH", cost=0.0)
+def start_of_a_month(month: Lex) -> str:
+    """Compose "the beginning of June"."""
+    return f"--{month.value:02d}-01"
+
+
 @construction("day: IN n=NUM DAYS", "day: n=NUM DAYS FROMNOW", cost=0.0)
 def days_from_now(n: Lex) -> str | None:
     """Compose "in 3 days"."""
@@ -688,6 +694,39 @@ def from_a_day(begin: str) -> TimePart:
 def from_day_to_day(begin: str, end: str) -> TimePart:
     """Compose "from 1 March to 31 May"."""
     return TimePart(repeats=True, first_day=begin, last_day=end)
+
+
+@construction("months: IN first=MONTH", "months: DURING first=MONTH", "months: IN first=MONTH AND last=MONTH", cost=0.1)
+@construction("months: IN first=MONTH COMMA MONTH AND last=MONTH", "months: FROM first=MONTH TO last=MONTH", cost=0.1)
+@construction("months: BETWEEN first=MONTH AND last=MONTH", "months: FROM first=MONTH UNTIL last=MONTH", cost=0.1)
+def in_months(first: Lex, last: Lex | None = None) -> TimePart | None:
+    """Compose "in July" and "from May to September", which limit a mission that runs again and again."""
+    end = first if last is None else last
+    if last is not None and first.value == last.value:
+        return None
+    return TimePart(first_day=f"--{first.value:02d}-01", last_day=end_of_a_month(end))
+
+
+@construction("part: months=months", cost=0.3)
+def of_months(months: TimePart) -> TimePart:
+    """Compose "in July", beside how often it runs."""
+    return months
+
+
+@construction("part: UNTIL when=DAYPART", "part: UNTIL THE when=DAYPART", cost=0.2)
+def until_part_of_day(when: Lex) -> TimePart | None:
+    """Compose "until evening", which is until it begins."""
+    begin = WINDOWS[when.value].begin
+    return None if begin.sun == "sunrise" else until_a_time(begin)
+
+
+@construction("part: VAGUELY bounds=part", "part: bounds=part VAGUELY", cost=0.1)
+@construction("part: VAGUELY bounds=hour_part", "part: bounds=hour_part VAGUELY", cost=0.1)
+def every_so_often(bounds: TimePart) -> TimePart | None:
+    """Compose "every so often until evening", of which it is asked how often."""
+    until = bounds.done_by is not None or bounds.hour_before
+    known = bounds.every_min or bounds.every_days or bounds.at or bounds.hour_at
+    return replace(bounds, repeats=True, vague=True) if until and not known else None
 
 
 @construction("part: FOR WEEKS", "part: FOR AN WEEKS", "part: FOR THE NEXT WEEK", cost=0.1)

@@ -36,6 +36,7 @@ class TimePart:
         needs_day: True if it is no time without a day ("first thing").
         times_a_day: Number of times of the day that must be said ("twice a day"); 0 if not said.
         awaits: True if the request says that the robot waits for the time somewhere ("wait at the gate until 6 pm").
+        vague: True if it runs again and again, without saying how often ("every so often until evening").
         further: True for another time of the same day, behind what is done at the first ("and again at 2 pm").
     """
 
@@ -61,6 +62,7 @@ class TimePart:
     needs_day: bool = False
     further: bool = False
     awaits: bool = False
+    vague: bool = False
 
     def __and__(self, other: TimePart) -> TimePart | None:
         """Return both parts together; None if they contradict each other."""

@@ -14,7 +14,7 @@ from fieldhand.planning.grammar.chart import Chart, PhraseEdge
 from fieldhand.planning.grammar.times.constructions import GRAMMAR
 from fieldhand.planning.grammar.times.lexicon import time_edges
 from fieldhand.planning.grammar.times.meaning import TimePart
-from fieldhand.planning.grammar.times.waiting import AwaitedTime, awaited, waits_between
+from fieldhand.planning.grammar.times.waiting import AwaitedTime, awaited, between_runs, waits_between
 from fieldhand.planning.grammar.times.windows import without_a_time
 from fieldhand.planning.planner import Answer
 from fieldhand.task.plan import Span
@@ -37,6 +37,12 @@ _NOUNS_IN_ED = frozenset({"need", "bed", "seedbed", "shed", "seed", "weed", "ree
 #: Words beside a time that belong to no clause that tells something.
 _JOINING = frozenset({"please", "and", "but", "then"})
 _DAY_MIN = 24 * 60
+
+#: Participles that do not end as other verbs do.
+_PARTICIPLES = frozenset({"taken", "seen", "done", "made", "shot", "found", "mown", "cut", "driven", "read"})
+#: Words of clauses that want something done, and of those that tell of something that was done.
+_WANTING = frozenset({"want", "wants", "need", "needs", "like", "should", "must", "get", "gets", "let"})
+_TELLING = frozenset({"was", "were", "been", "had", "has", "have", "which", "that", "who", "we", "they", "not"})
 
 #: Words behind which a part of this day may be past.
 _PAST = frozenset({"was", "were", "had", "did", "got", "been", "has", "have", "already"})
@@ -95,15 +101,20 @@ def without_times(words: Sequence[Word], earlier: frozenset[int] = frozenset()) 
         return None  # "every ten minutes, six times" and "every ten minutes for an hour" are one mission
     if sum(phrase.meaning.says_how_often for phrase in phrases) > 1:
         return None  # "photograph row 3 every day, and row 4 every Monday"
-    taken = times | {token for wait in waits.values() for token in wait.dropped}
-    instead = {token: word for wait in waits.values() for token, word in wait.instead.items()}
+    between = between_runs(words, times) if part.every_min else None
+    moved = (*waits.values(), *(() if between is None else (between,)))
+    taken = times | {token for wait in moved for token in wait.dropped}
+    instead = {token: word for wait in moved for token, word in wait.instead.items()}
     single = not part.repeats and len(part.weekdays) < 2
     if single and not all(_is_of_beginning(one, words, taken) for one in phrases):
         return None
     marks = {mark for phrase in phrases for mark in _marks_of(phrase, words)}
     return RequestTimes(
         words=tuple(instead.get(token, word) for token, word in enumerate(words) if token not in taken | marks),
-        said=tuple((words[_first(one, waits)].start, words[one.end - 1].end) for one in phrases),
+        said=(
+            *((words[_first(one, waits)].start, words[one.end - 1].end) for one in phrases),
+            *(() if between is None else ((words[k].start, words[k].end) for k in sorted(between.dropped))),
+        ),
         part=part,
         beside=tuple(span for phrase in phrases for span in _beside(phrase, words)),
     )
@@ -146,6 +157,13 @@ class TimeQuestion:
 
 def asked_time(part: TimePart) -> TimeQuestion | None:
     """Return the question for the time of day, or for the days of several times; None if they are said."""
+    if part.vague and not part.every_min:
+        often = [
+            (message("every 30 minutes", context="answer"), replace(part, every_min=30, vague=False)),
+            (message("every hour", context="answer"), replace(part, every_min=60, vague=False)),
+            (message("every 2 hours", context="answer"), replace(part, every_min=120, vague=False)),
+        ]
+        return TimeQuestion(question=message("How often?", context="question"), choices=tuple(often))
     if part.disputed and part.window is not None:
         at = listed([say_day_time(one) for one in part.at])
         choices = [
@@ -190,6 +208,14 @@ def warned_times(part: TimePart) -> tuple[str, ...]:
     )
 
 
+def with_answers(part: TimePart, answers: Sequence[Answer]) -> tuple[TimePart, tuple[Answer, ...]]:
+    """Return the part with the times that answers name, and these answers: one may lead to the next question."""
+    given: tuple[Answer, ...] = ()
+    while len(given) < len(answers) and (found := with_answer(part, answers)) is not None:
+        part, given = found[0], (*given, found[1])
+    return part, given
+
+
 def with_answer(part: TimePart, answers: Sequence[Answer]) -> tuple[TimePart, Answer] | None:
     """Return the part with the time that an answer names, and the answer; None without an answer that names one."""
     asked = asked_time(part)
@@ -203,9 +229,12 @@ def with_answer(part: TimePart, answers: Sequence[Answer]) -> tuple[TimePart, An
         from fieldhand.planning.english.tokens import words_of
 
         given = list(_phrases(words_of(answer.answer)))
-        open_part = replace(part, disputed=False, choices=(), window=None, half="", at=() if part.disputed else part.at)
+        open_part = replace(
+            part, disputed=False, vague=False, choices=(), window=None, half="", at=() if part.disputed else part.at
+        )
         joined = open_part & given[0].meaning if len(given) == 1 else None
-        if joined is not None and asked_time(joined) is None:
+        following = None if joined is None else asked_time(joined)
+        if joined is not None and (following is None or following.question != asked.question):
             return joined, answer
     return None
 
@@ -264,9 +293,23 @@ def _is_of_mission(phrase: PhraseEdge, words: Sequence[Word]) -> bool:
     before = words[phrase.start - 1] if phrase.start else None
     if before is None or before.kind in ("stop", "comma"):
         return True
-    return before.norm not in _OF_SOMETHING_ELSE and not (
-        before.norm.endswith("ed") and before.norm not in _NOUNS_IN_ED
-    )
+    past = before.norm in _PARTICIPLES or (before.norm.endswith("ed") and before.norm not in _NOUNS_IN_ED)
+    if past:
+        return _is_wanted(words[: phrase.start - 1])
+    return before.norm not in _OF_SOMETHING_ELSE
+
+
+def _is_wanted(before: Sequence[Word]) -> bool:
+    """Return True if a participle behind some words of a clause is one of what is to be done: "has to be mown"."""
+    clause = [word.norm for word in before]
+    for k in range(len(before) - 1, -1, -1):
+        if before[k].kind in ("comma", "stop"):
+            clause = clause[k + 1 :]
+            break
+    if clause[-2:] == ["to", "be"]:
+        return {"had", "was", "were"}.isdisjoint(clause)  # "has to be mown"
+    wanted = not _WANTING.isdisjoint(clause) or clause[-1:] == ["be"]
+    return wanted and _TELLING.isdisjoint(clause)
 
 
 def _is_of_beginning(phrase: PhraseEdge, words: Sequence[Word], taken: frozenset[int]) -> bool:
@@ -279,7 +322,10 @@ def _is_of_beginning(phrase: PhraseEdge, words: Sequence[Word], taken: frozenset
         alone = phrase.end == len(words) or words[phrase.end].kind == "stop"
         return alone or not any(word.kind == "word" for word in before)
     sentences = [word for word in before if word.kind == "stop"]
-    if phrase.meaning.day == "today" and phrase.meaning.takes is not None and any(w.norm in _PAST for w in before):
+    past = any(
+        word.norm in _PAST and (at + 1 == len(before) or before[at + 1].norm != "to") for at, word in enumerate(before)
+    )  # but for "has to be mown"
+    if phrase.meaning.day == "today" and phrase.meaning.takes is not None and past:
         return False  # "the trees that were dry this morning"
     return not sentences and not any(_parts(before, k) for k in range(len(before)))
 

@@ -18,6 +18,18 @@ _JOINS = frozenset({"and", "then"})
 _LEAST_WORK = 2
 
 
+#: Verbs of being somewhere between two runs, and words that say so.
+_STAYS = frozenset({"waiting", "staying", "standing", "resting", "parking", "parked", "sitting", "remaining"}) | _WAITS
+_RETURNS = frozenset({"return", "returning", "go", "going", "come", "coming", "drive", "driving"})
+_BETWEEN = (
+    ("in", "between"), ("between", "readings"), ("between", "the", "readings"), ("between", "runs"), ("inbetween",),
+    ("between", "rounds"), ("between", "the", "rounds"), ("between", "times"), ("in", "the", "meantime"),
+    ("meanwhile",),
+    ("between", "visits"), ("between", "measurements"), ("between", "pictures"), ("between", "the", "pictures"),
+    ("each", "time"), ("between", "them"), ("after", "each"), ("after", "each", "one"), ("after", "each", "reading"),
+)  # fmt: skip
+
+
 @dataclass(frozen=True, kw_only=True)
 class AwaitedTime:
     """A wait for a time, which becomes the beginning of the mission.
@@ -80,3 +92,47 @@ def awaited(phrase: PhraseEdge, words: Sequence[Word], times: frozenset[int]) ->
         return None
     dropped = frozenset(range(joined, phrase.start))
     return AwaitedTime(part=part, first=begin, dropped=dropped, instead={})
+
+
+def between_runs(words: Sequence[Word], times: frozenset[int]) -> AwaitedTime | None:
+    """Return where the robot is between runs as the end of each run; None if the words do not say it.
+
+    "Waiting on the charger in between" stands behind the work; it is read as "finish at the charger".
+
+    Args:
+        words: Words of the request, which runs again and again by the clock.
+        times: Numbers of the words that say times.
+    """
+    for begin in range(1, len(words)):
+        at = _place_behind(words, begin)
+        end = next((k for k in range(begin, len(words)) if words[k].kind in ("comma", "stop")), len(words))
+        between = _said_between(words, begin, end)
+        if at is None or between is None or at >= end or times & {*range(begin, end)}:
+            continue
+        instead = {begin: replace(words[begin], norm="finish"), begin + 1: replace(words[begin + 1], norm="at")}
+        dropped = frozenset((*range(begin + 2, at), *between))
+        return AwaitedTime(part=TimePart(), first=begin, dropped=dropped, instead=instead)
+    return None
+
+
+def _place_behind(words: Sequence[Word], begin: int) -> int | None:
+    """Return the number of the first word of the place behind a verb of being there or of going back to it."""
+    norms = [word.norm for word in words[begin : begin + 3]] + ["", ""]
+    if norms[0] in _STAYS and norms[1] in _AT:
+        return begin + 2
+    if norms[0] in _RETURNS and "to" in norms[1:3]:
+        return begin + 1 + norms[1:3].index("to") + 1 if norms[1] in ("to", "back") else None
+    return None
+
+
+def _said_between(words: Sequence[Word], begin: int, end: int) -> range | None:
+    """Return the words for between two runs, at the end of a clause or directly before it."""
+    norms = [word.norm for word in words]
+    for between in _BETWEEN:
+        first = end - len(between)
+        if tuple(norms[first:end]) == between:
+            return range(first, end)
+        last = begin - 1 if words[begin - 1].kind == "comma" else begin
+        if tuple(norms[max(0, last - len(between)) : last]) == between:
+            return range(last - len(between), begin)
+    return None
