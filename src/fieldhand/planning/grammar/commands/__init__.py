@@ -22,6 +22,7 @@ from fieldhand.planning.grammar.commands import (
     events,
     exclusions,
     further_work,
+    going_round,
     headings,
     laps,
     left_standing,
@@ -52,7 +53,7 @@ _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
     exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, aisles, earlier,
     work_wanted, laps, headings, edge_sides, row_parts, asked, left_standing, to_and_fro, work_sequel, at_edges,
-    bringing, reported, further_work, counting, which_of_two, asked_places, precision,
+    bringing, reported, further_work, counting, which_of_two, asked_places, precision, going_round,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)
