@@ -17,7 +17,7 @@ from fieldhand.planning.grammar.places.counted import row_itself
 from fieldhand.planning.grammar.places.planted_rows import filled_rows
 from fieldhand.planning.grammar.places.sampling import bare_points, is_keep_out
 from fieldhand.planning.grammar.row_by_row import MOST_ONE_BY_ONE, one_by_one
-from fieldhand.planning.selections import are_rows
+from fieldhand.planning.selections import are_rows, is_one_row
 from fieldhand.task import plan as p
 from fieldhand.task.nodes.work_along import WorkHeading
 
@@ -98,9 +98,11 @@ def _heading_back(state: DialogueState) -> WorkHeading:
 
 
 def _each_row(along: s.Selector, setting: Setting) -> Sequence[s.Selector]:
-    """Return rows one by one: whole ones by their names."""
+    """Return rows one by one, as they are named, or by their numbers: whole ones by their names."""
+    if all(is_one_row(part) for part in along.members):
+        return along.members
     whole = [row_itself(row, setting.site) for row in filled_rows(along, setting.site)]
-    return whole or one_by_one(along, setting.site)
+    return sorted(whole, key=lambda row: (len(row.first), row.first)) or one_by_one(along, setting.site)
 
 
 def _with_rests(
