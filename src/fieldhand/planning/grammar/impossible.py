@@ -416,13 +416,16 @@ def too_long(time: Amount) -> Impossible | None:
 
 
 @construction(
-    "WORKV [DET] [AISLEPATH] line", "WORKV [DET] [AISLEPATH] AT [DET] STRAIGHTLINE line", "WORKV [DET] STRIP line"
+    "WORKV [DET] [AISLEPATH] line=line",
+    "WORKV [DET] [AISLEPATH] AT [DET] STRAIGHTLINE line=line",
+    "WORKV [DET] STRIP line=line",
 )
 @construction("WORKV [DET] [AISLEPATH] path=path_over", "WORKV [DET] STRIP path=path_over")
-def work_along_a_line(path: tuple[object, object] | None = None) -> Impossible | None:
+def work_along_a_line(path: tuple[object, object] | None = None, line: SamplingLine | None = None) -> Impossible | None:
     """Compose "mow a path from the barn door to the gate"."""
-    if path is not None and not isinstance(path[0], SamplingLine):
-        return None
+    along = line if path is None else path[0]
+    if not isinstance(along, SamplingLine) or along.start.named_tree:
+        return None  # from tree to tree it is a part of a row
     return Impossible(
         message("work along a straight line between two places cannot be said yet"),
         message("name an area, rows, or the edge along which it works; 'drive to the gate' is possible"),
