@@ -106,6 +106,31 @@ SAID = [
         "the points every 10 m along the edge of the zone “pond”, 4 m from it",
     ),
     (
+        s.Transect(count=1, shape="edge", zone="pond", part="north"),
+        None,
+        "the middle of the north side of the zone “pond”",
+    ),
+    (
+        s.Transect(count=5, shape="edge", zone="pond", part="east"),
+        None,
+        "5 points along the east side of the zone “pond”",
+    ),
+    (
+        s.Transect(apart_m=10.0, shape="edge", zone="pond", part="west"),
+        None,
+        "the points every 10 m along the west side of the zone “pond”",
+    ),
+    (
+        s.Transect(count=1, shape="edge", zone="wet corner", off_m=-1.5),
+        None,
+        "1 point along the edge of the zone “wet corner”, 1.5 m outside of it",
+    ),
+    (
+        s.PointAt(metres=10.0, towards="west", origin=s.InZone(zone="wet corner")),
+        None,
+        "the point 10 m west of the zone “wet corner”",
+    ),
+    (
         s.StraightLine(start=s.Marker(name="start"), end=s.InZone(zone="pond"), apart_m=20.0),
         None,
         "the points every 20 m on the straight line from the start marker to the zone “pond”",

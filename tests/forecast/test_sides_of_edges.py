@@ -88,3 +88,19 @@ def test_the_four_sides_of_an_area_are_its_edge(wide: float, high: float, turned
     total = sum(stretch.length_m for unit in whole for stretch in unit.options[0])
     assert total * 0.8 < sum(lengths) < total * 1.15
     assert math.isclose(lengths[0], lengths[2], rel_tol=0.1) or np.ptp(lengths) < 4.0
+
+
+def _turns_right(stretches: tuple[Stretch, ...]) -> bool:
+    ring = [xy for stretch in stretches for xy in stretch.points]
+    return sum(ax * by - bx * ay for (ax, ay), (bx, by) in zip(ring, ring[1:] + ring[:1], strict=True)) < 0.0
+
+
+@pytest.mark.parametrize("zone", ["pond", "cow paddock"])
+@pytest.mark.parametrize("action", ["", "film", "mow"])
+def test_a_round_is_driven_in_the_direction_that_is_said(zone: str, action: str) -> None:
+    for heading in ("clockwise", "counterclockwise"):
+        found = along(zone, action=action, heading=heading)
+        assert _turns_right(found) == (heading == "clockwise")
+        assert all(stretch.one_way for stretch in found)
+    if action == "film":  # to the right of the tractor: the pond, or the edge of the paddock
+        assert _turns_right(along(zone, action=action)) == (zone == "pond")

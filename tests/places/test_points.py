@@ -15,7 +15,19 @@ from fieldhand.errors import PlaceError
 from fieldhand.places.context import Context
 from fieldhand.places.explanation import explain
 from fieldhand.places.resolution import resolve
-from fieldhand.places.selectors import Corners, Here, InZone, Marker, PointsIn, Rows, Spaced, StraightLine, TreeIs
+from fieldhand.places.selectors import (
+    Corners,
+    Here,
+    InZone,
+    Marker,
+    PointAt,
+    PointsIn,
+    Rows,
+    Spaced,
+    StraightLine,
+    Transect,
+    TreeIs,
+)
 from fieldhand.site.model import Place, Site
 from support.sites.points import at_start, place_at, planted, site_of, without_rows
 
@@ -299,3 +311,57 @@ def test_corners_without_free_ground_are_an_error():
         points(Corners(zone="moor"), site_of([(0.0, 400.0)], zones=zones))
     with pytest.raises(PlaceError, match="no zone 'nowhere'"):
         points(Corners(zone="nowhere"), orchard(zones=zones))
+
+
+STEPS = {"north": (0, 1), "east": (1, 0), "south": (0, -1), "west": (-1, 0)}
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.floats(0.5, 80), st.sampled_from(sorted(STEPS)), st.tuples(st.floats(-50, 50), st.floats(20, 90)))
+def test_a_point_at_a_distance_lies_that_far_to_that_side(metres, side, tree):
+    (found,) = points(PointAt(metres=metres, towards=side, origin=TreeIs(tree="1")), site_of([tree]))
+    assert found.xy == pytest.approx(np.add(tree, np.multiply(metres, STEPS[side])), abs=1e-6)
+
+
+def test_a_point_at_a_distance_from_a_zone_is_measured_from_its_edge():
+    site = site_of([(0.0, 50.0)], zones=FIELD)
+    found = {side: points(PointAt(metres=4.0, towards=side, origin=InZone(zone="pond")), site)[0] for side in STEPS}
+    assert {side: place.xy for side, place in found.items()} == {
+        "north": pytest.approx((20, 14), abs=1e-6),
+        "east": pytest.approx((34, 0), abs=1e-6),
+        "south": pytest.approx((20, -14), abs=1e-6),
+        "west": pytest.approx((6, 0), abs=1e-6),
+    }
+    assert found["east"].id == "4 m east of pond"
+
+
+@pytest.mark.parametrize(
+    ("selector", "says"),
+    [
+        (PointAt(metres=0.0, towards="north", origin=TreeIs(tree="1")), "0 m away is not possible"),
+        (PointAt(metres=math.inf, towards="north", origin=TreeIs(tree="1")), "is not possible"),
+        (PointAt(metres=20.0, towards="east", origin=TreeIs(tree="1")), "inside a keep-out or outside the boundary"),
+        (Transect(count=1, shape="edge", zone="pond", part="nw"), "no part of this edge faces that side"),
+        (Transect(count=1, shape="edge", zone="pond", off_m=-2.0), "cannot lie -2 m from an edge"),
+        (Transect(count=1, shape="edge", off_m=-2.0), "cannot lie -2 m from an edge"),
+    ],
+)
+def test_points_beside_places_that_cannot_be_are_said_to_be_so(selector, says):
+    with pytest.raises(PlaceError, match=says):
+        points(selector, site_of([(0.0, 0.0)], zones=FIELD))
+
+
+def test_one_side_of_an_edge_is_inside_of_a_zone_and_outside_of_a_keep_out():
+    site = site_of([(0.0, 50.0)], zones=FIELD)
+    (north,) = points(Transect(count=1, shape="edge", zone="pond", part="north"), site)
+    (south,) = points(Transect(count=1, shape="edge", zone="east shed", part="south"), site)
+    assert (north.xy, south.xy) == (pytest.approx((20, 11.5), abs=0.1), pytest.approx((65, -3.5), abs=0.1))
+    west = xy(points(Transect(apart_m=5.0, shape="edge", zone="pond", part="west"), site))
+    assert len(west) == 4
+    assert west[:, 0].max() <= 10.0
+
+
+def test_a_point_beside_a_zone_is_outside_of_it():
+    site = site_of([(0.0, 50.0)], zones=FIELD)
+    (found,) = points(Transect(count=1, shape="edge", zone="east shed", off_m=-1.5), site)
+    assert box(60, -5, 70, 5).distance(Point(found.xy)) == pytest.approx(1.5, abs=0.05)

@@ -268,6 +268,7 @@ def _perimeter(
         outside=outside,
         mounted="both" if implement is None else implement.side,
         side=None if node.sides == "one" or node.sides == "both" else node.sides,
+        clockwise={"clockwise": True, "counterclockwise": False}.get(node.heading),
     )
     return _headed(units, node, site)
 

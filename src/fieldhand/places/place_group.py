@@ -80,12 +80,16 @@ class PlaceGroup:
     def row(self) -> Indices:
         """For each place the position of its row in the site's :attr:`~.Planting.rows`; -1 for what is in no row."""
         planted = self.site.planting.row_of
+        if not len(planted):
+            return np.full(len(self), -1)
         return np.where(self.is_tree, planted[self.index * self.is_tree], -1)
 
     @property
     def rank_in_row(self) -> Indices:
         """For each place which tree of its row it is from the row's usual end, from 0; -1 for what is in no row."""
         planted = self.site.planting.rank
+        if not len(planted):
+            return np.full(len(self), -1)
         return np.where(self.is_tree, planted[self.index * self.is_tree], -1)
 
     def without(self, excluded: PlaceGroup) -> PlaceGroup:

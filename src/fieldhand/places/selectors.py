@@ -47,6 +47,7 @@ from fieldhand.places.picks.take import Take
 from fieldhand.places.picks.top import Top
 from fieldhand.places.points.beside import Beside
 from fieldhand.places.points.grid import Grid
+from fieldhand.places.points.point_at import PointAt
 from fieldhand.places.points.points_in import PointsIn
 from fieldhand.places.points.spaced import Spaced
 from fieldhand.places.points.straight_line import StraightLine
@@ -122,5 +123,6 @@ SELECTORS: tuple[type[Selector], ...] = (
     Grid,
     Transect,
     StraightLine,
+    PointAt,
     UnionOf,
 )

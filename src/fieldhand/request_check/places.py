@@ -48,6 +48,7 @@ _BESIDE_THEM = re.compile(
     r"|\b(?:their|its) (?:\w+ )?neighbou?rs\b"
     r"|\bplants? (?:\w+ )?(?:next to|beside) (?:it|them|each)\b|\bneighbou?rs? of each\b"
     r"|\band (?:\w+ ){0,3}the (?:nearest|closest) \w+"
+    r"|\band (?:\w+ ){1,6}(?:next to|beside|alongside) (?:it|them|each)\b|\band (?:\w+ ){1,4}neighbou?rs?\b"
     r"|\b(?:trees?|vines?|ones?) (?:next to|beside|alongside) (?:it|them|each)\b"
     r"|\b(?:next to|beside|alongside|neighbou?rs? of|sides? of)"
     r" (?:the (?:\w+ ){0,2}\w+s|those|every|any|all|\w+s with)\b"
@@ -57,6 +58,9 @@ _LEAVES_OUT = w.NEGATIONS | w.words_in(
     "apart aside bar barring but forget ignore leave leaving minus omit save skipping"
 )
 #: Pattern of a half that is named by a place near it, or by words that no map explains.
+_SOME_SIDES = re.compile(
+    r"\b(?:both|either|each|every|all|two|four|one)\b[^.;!?]{0,20}\b(?:sides?|ends?|edges?|faces?)\b|\bside of\b"
+)
 _SOME_HALF = re.compile(
     r"\bhalf (?:of (?:\w+ ){1,4})?(?:nearest|closest|next)\b"
     r"|\b(?:foot|head|lowest|highest|far|near|low) (?:end |side |part |point )?of\b"
@@ -422,6 +426,9 @@ def _sides(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
         return
     around = len(plan.sides) == 4 and not spoken  # each quarter, or the whole edge
     ends = frozenset() if facts.sides else plan.ends_driven
+    faced = {x.part for _, x in plan.having(s.Transect) if isinstance(x, s.Transect) and x.shape == "edge"}
+    if faced and _SOME_SIDES.search(facts.text):
+        ends |= {side for side in _SIDES if side in faced}  # "on the paddock side", "at both ends"
     for side, node in plan.sides.items():
         if side not in facts.sides and not around and side not in ends:
             yield PlanMismatch(

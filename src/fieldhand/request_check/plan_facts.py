@@ -13,6 +13,7 @@ from typing import Literal
 
 from fieldhand.places import selectors as s
 from fieldhand.places.count_range import ONE, CountRange, exactly
+from fieldhand.places.points.transect import OFF_EDGE_M
 from fieldhand.places.selector import Selector
 from fieldhand.request_check.earlier import earlier_tests
 from fieldhand.task import conditions as c
@@ -389,6 +390,8 @@ def _numbers(nodes: tuple[p.Node, ...], selectors: tuple[tuple[str, Selector], .
         for field in fields(x):
             value = getattr(x, field.name)
             if isinstance(value, bool) or value == field.default or isinstance(x, s.Where) or field.name == "value":
+                continue
+            if field.name == "off_m" and value == -OFF_EDGE_M:  # "next to" it, so far outside of its edge
                 continue
             if field.name == "seed":
                 continue  # it numbers draws from several groups

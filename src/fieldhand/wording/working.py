@@ -50,6 +50,8 @@ def say_work(node: WorkAlong, robot: RobotProfile, names: Mapping[str, str]) -> 
     if node.heading in ("north_south", "east_west"):
         lanes = message("lanes running north to south"), message("lanes running east to west")
         more.append(lanes[node.heading == "east_west"])
+    elif node.heading in ("clockwise", "counterclockwise"):
+        more.append(message("clockwise") if node.heading == "clockwise" else message("counterclockwise"))
     elif node.heading != "any":
         more.append(message("driving to the {side}", side=COMPASS[node.heading]))
     if rounds_side_by_side(node, robot):

@@ -300,8 +300,8 @@ REFUSED = [
     (
         PASTURE,
         HUSKY,
-        "Circle the pond clockwise with a thermal picture every 10 metres.",
-        "in which direction it drives around an area cannot be said yet",
+        "Take a thermal picture every 10 metres around the pond, anticlockwise.",
+        "points along an edge are visited clockwise",
     ),
     (
         ORCHARD,

@@ -1368,7 +1368,7 @@ REFUSED = [
     ),
     (
         "husky",
-        "take a picture 10 m north of tree 5",
+        "take a picture of the tree 10 m north of tree 5",
         "'10 m north of tree 5': a distance in a direction is no place where a tree stands",
     ),
     (

@@ -31,6 +31,7 @@ from fieldhand.places.resolution_notes import ResolutionNotes
 from fieldhand.site.feature_kinds import phrase
 from fieldhand.site.model import Site
 from fieldhand.site.rectangle import named_corners, smallest_rectangle
+from fieldhand.site.working.heading import TOWARDS, facing
 
 if TYPE_CHECKING:
     from fieldhand.places.points.transect import Transect
@@ -125,18 +126,18 @@ def _beside_edge(site: Site, xy: Floats, selector: Transect) -> Floats:
 def _edge(site: Site, selector: Transect) -> list[LineString]:
     """Return the pieces of the edge of a zone or the site, inside of it, clockwise from its north-west.
 
-    Around a keep-out they lie outside of it.
+    Around a keep-out they lie outside of it. Of one side they face it; a single point is on the longest of them.
 
     Raises:
-        PlaceError: There is no such zone, or the distance from the edge is none.
+        PlaceError: There is no such zone, the distance from the edge is none, or no part of it faces that side.
     """
     zone, off = selector.zone, selector.off_m
-    if not (np.isfinite(off) and 0 <= off <= _MOST_OFF_M):
+    outs = [z.polygon for z in site.zones_of("keep_out") if zone and phrase(z.name) == phrase(zone)]
+    if not (np.isfinite(off) and (0 if outs or not zone else -_MOST_OFF_M) <= off <= _MOST_OFF_M):
         raise PlaceError(
             message("points cannot lie {metres} m from an edge", metres=Number(f"{off:g}")),
             advice=message("ask for 0 to {most} m", most=Number(f"{_MOST_OFF_M:g}")),
         )
-    outs = [z.polygon for z in site.zones_of("keep_out") if zone and phrase(z.name) == phrase(zone)]
     area = unary_union(outs).buffer(off) if outs else area_called(site, zone).buffer(-off)
     found: list[LineString] = []
     for part in shapely.get_parts(area):
@@ -144,7 +145,18 @@ def _edge(site: Site, selector: Transect) -> list[LineString]:
         if at:
             first = int(np.argmin(np.asarray(at) @ np.array([1.0, -1.0])))
             found.append(LineString([*at[first:], *at[: first + 1]]))
-    return found
+    if selector.part == "all":
+        return found
+    faced = [side for side in TOWARDS if side == selector.part]
+    rings = [np.asarray(line.coords) for line in found]
+    pieces = [LineString(one) for side in faced for ring in rings for one in facing(ring, side, clockwise=True)]
+    if not pieces:
+        raise PlaceError(
+            message("no part of this edge faces that side"),
+            where=site.name,
+            advice=message("name north, east, south or west, or the whole edge"),
+        )
+    return pieces if selector.count != 1 else [max(pieces, key=lambda piece: float(piece.length))]
 
 
 def _path(xy: Floats, selector: Transect) -> list[LineString]:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 from fieldhand.language import counted, message
-from fieldhand.language.words import say_number, say_zone
+from fieldhand.language.words import COMPASS, say_number, say_zone
 from fieldhand.places.areas.area_words import say_area, sides_of_part
 from fieldhand.places.count_range import ANY, CountRange, exactly
 from fieldhand.places.filters.in_block import InBlock
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 PathShape = Literal["zigzag", "z", "x", "edge"]
 
 
-#: Distance in metres of points along an edge from it, unless another is asked for.
+#: Distance in metres of points along an edge from it, inside of it, unless another is asked for.
 OFF_EDGE_M = 1.5
 
 
@@ -35,8 +35,8 @@ OFF_EDGE_M = 1.5
 class Transect(FromGroup):
     """``count`` trees of ``of`` nearest to equally spaced points, or to points ``apart_m`` metres apart, of a path
     across it: a ``zigzag`` of ``legs`` (4 are a W, 1 is a diagonal), a ``z`` or an ``x``. With ``zone`` (``part``),
-    free points there; without trees, on the whole site. Along an ``edge``, free points ``off_m`` inside of
-    it, outside of a keep-out."""
+    free points there; without trees, on the whole site. Along an ``edge``, or its ``part`` that faces a
+    side, free points ``off_m`` inside of it, outside of a keep-out."""
 
     count: int = 0
     apart_m: float = 0.0
@@ -94,8 +94,12 @@ class Transect(FromGroup):
 
     def _along_edge(self) -> NounPhrase:
         area = say_zone(self.zone) if self.zone else message("the whole site")
-        if self.off_m != OFF_EDGE_M:
+        if self.off_m < 0.0:
+            area = message("{area}, {metres} m outside of it", area=area, metres=say_number(-self.off_m))
+        elif self.off_m != OFF_EDGE_M:
             area = message("{area}, {metres} m from it", area=area, metres=say_number(self.off_m))
+        if self.part != "all":
+            return self._along_side(area)
         if self.apart_m:
             return many(
                 message(
@@ -105,6 +109,20 @@ class Transect(FromGroup):
         points = counted("{count} point", "{count} points", self.count)
         text = message("{points} along the edge of {area}", points=points, area=area)
         return one(text) if self.count == 1 else many(text)
+
+    def _along_side(self, area: str) -> NounPhrase:
+        side = COMPASS[self.part]
+        if self.apart_m:
+            metres = say_number(self.apart_m)
+            return many(
+                message(
+                    "the points every {metres} m along the {side} side of {area}", metres=metres, side=side, area=area
+                )
+            )
+        if self.count == 1:
+            return one(message("the middle of the {side} side of {area}", side=side, area=area))
+        points = counted("{count} point", "{count} points", self.count)
+        return many(message("{points} along the {side} side of {area}", points=points, side=side, area=area))
 
     @property
     def on_ground(self) -> bool:

@@ -12,10 +12,12 @@ from fieldhand.language import Number, message
 from fieldhand.language.words import listed, say_name
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.commands.going_round import Hand, mounted_side
 from fieldhand.planning.grammar.commands.parameters import in_unit_of, with_parameter
 from fieldhand.planning.grammar.commands.waits import LONGEST_WAIT_S
 from fieldhand.planning.grammar.earlier.work import EarlierWork
 from fieldhand.planning.grammar.meaning import Amount, CaptureCommand, Nominal, ParameterValue, PlaceMeaning, Thing
+from fieldhand.planning.grammar.places.lines import SamplingLine
 from fieldhand.planning.grammar.places.sampling import is_keep_out
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
@@ -436,14 +438,46 @@ def too_long(time: Amount) -> Impossible | None:
     return Impossible(message("a wait lasts at most 24 hours"), message("say a shorter time, or plan two missions"))
 
 
+@construction(
+    "WORKV [DET] [AISLEPATH] line=line",
+    "WORKV [DET] [AISLEPATH] AT [DET] STRAIGHTLINE line=line",
+    "WORKV [DET] STRIP line=line",
+)
+@construction("WORKV [DET] [AISLEPATH] path=path_over", "WORKV [DET] STRIP path=path_over")
+def work_along_a_line(path: tuple[object, object] | None = None, line: SamplingLine | None = None) -> Impossible | None:
+    """Compose "mow a path from the barn door to the gate"."""
+    along = line if path is None else path[0]
+    if not isinstance(along, SamplingLine) or along.start.named_tree:
+        return None  # from tree to tree it is a part of a row
+    return Impossible(
+        message("work along a straight line between two places cannot be said yet"),
+        message("name an area, rows, or the edge along which it works; 'drive to the gate' is possible"),
+    )
+
+
 @construction("way=CLOCKWISE")
 def direction_around(way: Lex) -> Impossible:
-    """Compose "clockwise" behind a drive around an area; the corners can be visited so."""
-    del way
+    """Compose "anticlockwise" behind points along an edge, or behind what is no round."""
+    if "against" in way.features:
+        return Impossible(
+            message("points along an edge are visited clockwise, and only drives around an area the other way"),
+            message("leave it out, or say only the drive: 'drive anticlockwise around the pond'"),
+        )
     return Impossible(
-        message("in which direction it drives around an area cannot be said yet"),
-        message("leave it out: the direction is the shorter one, or that of the implement"),
+        message("only a drive around an area and points along its edge have this direction"),
+        message("leave it out, or name the area: 'drive clockwise around the pond'"),
     )
+
+
+@construction("kept=hand_kept", given=("robot",))
+def on_the_other_hand(kept: tuple[Hand, s.Selector | None], robot: RobotProfile) -> Impossible | None:
+    """Compose "on your left" of a robot whose implement works to the right."""
+    sides = {mounted_side(action.name, robot) for action in robot.actions} - {None, kept[0]}
+    if len(sides) != 1:
+        return None
+    if sides == {"left"}:
+        return Impossible(message("the implement works to the left"), message("say 'on your left', or leave it out"))
+    return Impossible(message("the implement works to the right"), message("say 'on your right', or leave it out"))
 
 
 @construction("amount=amount FROM [DET] EDGE", "amount=amount CLEAROF [DET] EDGE")

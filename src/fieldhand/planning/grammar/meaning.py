@@ -341,8 +341,10 @@ class WorkCommand:
         sides, every, heading, laps, optional, parameters: As of the plan node.
         rest_s: Seconds of rest between laps.
         rests_last: True if it rests after the last lap as well.
+        rests_rows: True if it rests at the end of each row instead.
         back: True if it is done on the way back from the work before it, in the other direction.
         edge_side: Side of an edge on which the phrase says that it drives.
+        faced: True if the phrase says what the implement faces.
         it: True if the phrase refers to the ground by "it".
     """
 
@@ -358,8 +360,10 @@ class WorkCommand:
     parameters: tuple[tuple[str, str | float], ...] = ()
     rest_s: float = 0.0
     rests_last: bool = False
+    rests_rows: bool = False
     back: bool = False
     edge_side: Literal["", "inside", "outside"] = ""
+    faced: bool = False
     it: bool = False
 
 

@@ -21,7 +21,7 @@ from fieldhand.site.coverage.cover import cover
 from fieldhand.site.coverage.headland import rings_at
 from fieldhand.site.coverage.plan import CoverageParams, CoveragePlan
 from fieldhand.site.coverage.row_passes import cover_rows
-from fieldhand.site.working.heading import TOWARDS
+from fieldhand.site.working.heading import facing
 from fieldhand.site.working.lanes import LanePath, lanes_past
 from fieldhand.site.working.stretch import Stretch
 from fieldhand.site.working.units import MountedSide, WorkUnit
@@ -40,8 +40,6 @@ _EDGE_STEP_M = 8.0
 _OUTSIDE_M = 0.5
 #: Metres that a drive along an edge keeps beside the clearance, within which ground is approximated.
 _EDGE_M = 0.15
-#: An edge faces a side of the compass within 45 degrees.
-_FACING_COS = 0.7
 #: Greatest angle in degrees between rows and the direction in which lanes are to run.
 _ALONG_ROWS_DEG = 45.0
 #: Share of an area's trees in rows from which it is worked along the rows.
@@ -186,6 +184,7 @@ def perimeter_units(
     mounted: MountedSide,
     from_edge_m: float = 0.0,
     side: Side | None = None,
+    clockwise: bool | None = None,
 ) -> tuple[WorkUnit, ...]:
     """Return the work along the edge of an area, clockwise unless the implement works to the left.
 
@@ -198,6 +197,7 @@ def perimeter_units(
             of an area that is driven along inside.
         from_edge_m: Distance by which the drive is farther from the edge than the first round.
         side: Side of the compass to which the worked part of the edge faces; None for all of it.
+        clockwise: True to drive clockwise, False for the other way, whatever the implement faces; None for the usual.
 
     Raises:
         PlaceError: The robot cannot drive along the edge, or that side of it.
@@ -206,13 +206,14 @@ def perimeter_units(
     edge = ground.buffer(inset + _OUTSIDE_M, quad_segs=4) if outside else ground
     area = _polygons(edge)
     rings = [] if area is None else rings_at(area, 0.0 if outside else inset, holes=False)
-    clockwise = mounted != ("left" if outside else "right")
+    one_way = mounted in ("left", "right") or clockwise is not None
+    clockwise = mounted != ("left" if outside else "right") if clockwise is None else clockwise
     found: list[WorkUnit] = []
     for number, ring in enumerate(rings, start=1):
         at = np.asarray(ring)
         parts = [at[::-1] if clockwise else at]
         if side is not None:
-            parts = _facing(parts[0], side, clockwise=clockwise)
+            parts = facing(parts[0], side, clockwise=clockwise)
         lanes: list[LanePath] = []
         for part in parts:
             stops = _stops(part)
@@ -223,7 +224,7 @@ def perimeter_units(
             name = message("around part {number} of the area", context="log", number=number)
         if side is not None:
             name = message("{north} side, {stretch}", context="log", north=COMPASS[side], stretch=name)
-        found += _unit(name, lanes, one_way=mounted in ("left", "right"))
+        found += _unit(name, lanes, one_way=one_way)
     if not found and rings and side is not None:
         raise PlaceError(
             message("the robot cannot drive along the {north} side of this area", north=COMPASS[side]),
@@ -237,32 +238,6 @@ def perimeter_units(
             advice=message("choose another area, or a narrower robot"),
         )
     return tuple(found)
-
-
-def _facing(ring: np.ndarray, side: Side, *, clockwise: bool) -> list[np.ndarray]:
-    """Return the pieces of a ring that face a side of the compass, longest first; short ones turn a corner."""
-    steps = np.diff(ring, axis=0)
-    lengths = np.hypot(*steps.T)
-    kept = lengths > 0.0
-    ring, steps, lengths = np.vstack([ring[:-1][kept], ring[-1]]), steps[kept], lengths[kept]
-    outwards = np.column_stack([-steps[:, 1], steps[:, 0]]) * (1.0 if clockwise else -1.0) / lengths[:, None]
-    facing = outwards @ np.array(TOWARDS[side]) >= _FACING_COS
-    if facing.all() or not facing.any():
-        return [ring] if facing.all() else []
-    first = int(np.argmin(facing))  # begin at a step that faces elsewhere, so that no piece is cut in two
-    order = np.roll(np.arange(len(steps)), -first)
-    pieces: list[list[int]] = []
-    for before, k in itertools.pairwise(order.tolist()):
-        if facing[k] and facing[before]:
-            pieces[-1].append(k)
-        elif facing[k]:
-            pieces.append([k])
-    points = [np.vstack([ring[piece], ring[piece[-1] + 1]]) for piece in pieces]
-    return sorted((one for one in points if _length(one) >= _SHORT_M), key=_length, reverse=True)
-
-
-def _length(line: np.ndarray) -> float:
-    return float(np.hypot(*np.diff(line, axis=0).T).sum())
 
 
 def _unit(name: str, lanes: Sequence[LanePath], *, one_way: bool = False) -> list[WorkUnit]:

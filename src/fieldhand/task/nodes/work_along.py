@@ -21,12 +21,14 @@ WorkMode = Literal["rows", "aisles", "headlands", "area", "perimeter"]
 RowSides = Literal["one", "both", "north", "east", "south", "west"]
 
 #: Direction in which lanes run, or in which every row or aisle is driven.
-WorkHeading = Literal["any", "north_south", "east_west", "north", "east", "south", "west"]
+WorkHeading = Literal[
+    "any", "north_south", "east_west", "north", "east", "south", "west", "clockwise", "counterclockwise"
+]
 
 
 @dataclass(frozen=True, kw_only=True)
 class WorkAlong(PlanNode):
-    """An action that is on while driving along rows, through aisles, over an area or along its edge.
+    """An action that is on while driving along rows, aisles, an area or its edge.
 
     Without an action the robot only drives.
 
@@ -37,18 +39,18 @@ class WorkAlong(PlanNode):
     Attributes:
         action: The action; empty to drive only.
         parameters: Name and value of each parameter that the profile declares for the action.
-        along: Trees of the rows; with ``area`` and ``perimeter`` the zone or trees.
+        along: Trees of the rows, or a zone.
         along_said: Character ranges of the request that name them.
-        mode: ``rows``: beside each row, from first to last tree. ``aisles``: between neighbouring rows.
-            ``headlands``: along both ends of the rows. ``area``: all ground, lane by lane. ``perimeter``: its edge.
-        sides: Sides of each row: any one, both, or one of the compass. With ``perimeter``, that side of it.
-        every: With ``aisles``, 2 for every second aisle.
-        heading: With ``area``, ``north_south`` or ``east_west``: direction of its lanes. Else the side towards which
-            each row, aisle or side of an edge is driven.
-        laps: Times that the whole is done.
-        gaps: ``on`` to keep the action on in gaps of a row.
+        mode: ``rows``: beside each row. ``aisles``: between neighbouring rows. ``headlands``: along both ends of the
+            rows. ``area``: all ground. ``perimeter``: its edge.
+        sides: Of each row any one, both, or one; with ``perimeter``, that side of it.
+        every: 2 for every second aisle.
+        heading: With ``area``, direction of its lanes; else the side towards which each row, aisle or side of an edge
+            is driven.
+        laps: Times the whole is done.
+        gaps: ``on`` to be on in gaps of a row.
         order: As of a for-each.
-        optional: As much as the budget allows ("as much as you can").
+        optional: As much as the budget allows.
     """
 
     id: str = ""

@@ -23,6 +23,7 @@ from fieldhand.planning.grammar.commands import (
     events,
     exclusions,
     further_work,
+    going_round,
     headings,
     laps,
     left_standing,
@@ -54,7 +55,7 @@ _THEMES = (
     exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, aisles, earlier,
     work_wanted, laps, headings, edge_sides, row_parts, asked, left_standing, to_and_fro, work_sequel, at_edges,
     bringing, reported, further_work, counting, which_of_two, asked_places, precision,
-    ending,
+    ending, going_round,
 )  # fmt: skip
 for _theme in _THEMES:
     GRAMMAR.include(_theme.GRAMMAR)

@@ -221,8 +221,9 @@ def measure_by(place: PlaceMeaning, act: CaptureCommand, used: int) -> CaptureCo
 
 @construction("capture: AGAIN word=relation place=place", cost=0.6)
 def once_more_at(word: str, place: PlaceMeaning, used: int) -> CaptureCommand | None:
-    """Compose "once more at tree 9" behind what is taken."""
-    return CaptureCommand((Thing(LAST_THING),), place, used, relation=word) if place.shape == "one" else None
+    """Compose "once more at tree 9" and "again in the herb patch" behind what is taken."""
+    known = place.shape == "one" or (place.shape == "area" and bool(place.selector.whole_zone))
+    return CaptureCommand((Thing(LAST_THING, count=1),), place, used, relation=word) if known else None
 
 
 @construction("capture: MEASURE IT AGAIN", "capture: TAKE IT AGAIN", "capture: MEASURE IT AGAIN place=here", cost=0.4)

@@ -240,8 +240,10 @@ def for_part(things: tuple[Thing, ...]) -> Clause:
 
 
 @construction("part: word=relation place=place", cost=0.0)
-def place_part(word: str, place: PlaceMeaning) -> Clause:
-    """Compose "at tree 4"."""
+def place_part(word: str, place: PlaceMeaning) -> Clause | None:
+    """Compose "at tree 4"; "along the south edge" are several places."""
+    if word == "along" and getattr(place.selector, "shape", "") == "edge":
+        return None
     return _part("p", place=place, relation=word)
 
 

@@ -2,101 +2,24 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, replace
-from itertools import pairwise
-
-from shapely import Polygon, unary_union
-from shapely.geometry.base import BaseGeometry
+from dataclasses import replace
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.commands.laps import goes_around, is_thin
+from fieldhand.planning.grammar.commands.laps import goes_around, is_thin, strip_around
 from fieldhand.planning.grammar.commands.working import Tract
 from fieldhand.planning.grammar.meaning import WorkCommand
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.places.sampling import is_keep_out
+from fieldhand.planning.grammar.places.zone_sides import EdgeSide, sides_of_fence
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import as_zone
+from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.terms import Side
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
-
-#: How much longer than wide something is that has two sides, across its length.
-_LONG = 4.0
-
-
-@dataclass(frozen=True, slots=True)
-class EdgeSide:
-    """A side of an edge: of the compass, or that on which an area lies.
-
-    Attributes:
-        compass: Side of the compass; None for the side of an area.
-        zone: Name of the area.
-        edge: True for "the south edge" of any area; the south side of ground that can be driven on is a part of it.
-    """
-
-    compass: Side | None = None
-    zone: str = ""
-    edge: bool = False
-
-    def of(self, fence: s.Selector, site: Site) -> Side | None:
-        """Return the side of the compass of something; None if the area lies on no one side of it."""
-        return self.compass or _side_towards(_ground(fence, site), _ground(s.InZone(zone=self.zone), site))
-
-
-def _ground(area: s.Selector, site: Site) -> BaseGeometry:
-    zone = as_zone(area)
-    return unary_union([one.polygon for one in site.zones if zone is not None and one.name == zone.zone])
-
-
-def _side_towards(own: BaseGeometry, other: BaseGeometry) -> Side | None:
-    """Return the side of a shape on which another lies; of a long shape, one of the two across its length."""
-    if own.is_empty or other.is_empty:
-        return None
-    east, north = other.centroid.x - own.centroid.x, other.centroid.y - own.centroid.y
-    if (across := _across(own)) is not None:
-        ahead = east * across[0] + north * across[1]
-        east, north = ahead * across[0], ahead * across[1]
-    return None if math.hypot(east, north) < 1e-6 else _nearest_side(east, north)
-
-
-def _across(shape: BaseGeometry) -> tuple[float, float] | None:
-    """Return the direction across a long shape, a unit vector; None for any other shape."""
-    rectangle = shape.minimum_rotated_rectangle
-    if not isinstance(rectangle, Polygon):
-        return None
-    corners = list(rectangle.exterior.coords)[:3]
-    (short, _), (length, (east, north)) = sorted(
-        (math.dist(one, two), (two[0] - one[0], two[1] - one[1])) for one, two in pairwise(corners)
-    )
-    return (-north / length, east / length) if length >= _LONG * short and length > 0.0 else None
-
-
-def _nearest_side(east: float, north: float) -> Side:
-    if abs(east) >= abs(north):
-        return "east" if east > 0 else "west"
-    return "north" if north > 0 else "south"
-
-
-@construction("fence_side: [DET] side=DIR SIDE", "fence_side: ITS side=DIR SIDE", cost=0.1)
-def compass_side(side: Lex) -> EdgeSide | None:
-    """Compose "the west side"."""
-    return EdgeSide(compass=side.value) if side.value in SIDES else None
-
-
-@construction("fence_side: [DET] side=DIR EDGE", "fence_side: ITS side=DIR EDGE", cost=0.1)
-def compass_edge(side: Lex) -> EdgeSide | None:
-    """Compose "the west edge"."""
-    return EdgeSide(compass=side.value, edge=True) if side.value in SIDES else None
-
-
-@construction("fence_side: [DET] zone=ZONE SIDE", "fence_side: [DET] zone=ZONEPOSS SIDE", cost=0.1)
-def side_of_area(zone: Lex) -> EdgeSide:
-    """Compose "the paddock side" of a fence."""
-    return EdgeSide(zone=zone.value)
 
 
 @construction(
@@ -121,6 +44,8 @@ def one_side_of_edge(side: EdgeSide, fence: s.Selector, site: Site) -> Tract | N
 
 @construction(
     "tract: ONEPASS ALONG fence=region",
+    "tract: ONESIDE OF fence=region",
+    "tract: ALONG ONESIDE OF fence=region",
     "tract: n=count STRIP ALONG fence=region",
     cost=0.1,
     given=("site",),
@@ -129,11 +54,26 @@ def once_along_fence(fence: s.Selector, site: Site, n: int = 1) -> list[Tract] |
     """Compose "one pass along the fence", on either of its two sides."""
     if n != 1 or not is_keep_out(fence, site) or not is_thin(fence, site) or goes_around(fence, site):
         return None
-    across = _across(_ground(fence, site))
-    if across is None:
+    return [Tract(fence, "perimeter", sides=side) for side in sides_of_fence(fence, site)] or None
+
+
+@construction("tract: EACHSIDE OF fence=region", cost=0.1, given=("site",))
+def both_sides_of_fence(fence: s.Selector, site: Site) -> Tract | None:
+    """Compose "both sides of the stock fence", along which the robot drives all the way round."""
+    return Tract(fence, "perimeter") if sides_of_fence(fence, site) and is_keep_out(fence, site) else None
+
+
+@construction(
+    "work: verb=WORKV wide=strip where=tract", "work: verb=WORKV [DET] STRIP where=tract", cost=0.1, given=("robot",)
+)
+def strip_on_one_side(
+    verb: Lex, where: Tract, used: int, robot: RobotProfile, wide: float | None = None
+) -> list[WorkCommand] | None:
+    """Compose "mow a strip 3 m wide on the west side of the fence"."""
+    if where.mode != "perimeter":
         return None
-    sides = (_nearest_side(*across), _nearest_side(-across[0], -across[1]))
-    return [Tract(fence, "perimeter", sides=side) for side in sides]
+    made = strip_around(verb, where.selector, wide, used, robot)
+    return [replace(one, sides=where.sides, heading=where.heading) for one in made] or None
 
 
 @construction(

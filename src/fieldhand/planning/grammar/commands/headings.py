@@ -133,11 +133,14 @@ def work_east_to_west(one: WorkCommand, axis: WorkHeading, used: int) -> list[Wo
 
 @construction(
     "work: one=work [COMMA] [and_or_but] order=ordered", "work: one=work [COMMA] GO order=ordered",
-    "work: order=ordered [COMMA] one=work",
+    "work: one=work [COMMA] GO ALONG [it=IT] order=ordered", "work: order=ordered [COMMA] one=work",
     cost=0.1, given=("site",),
 )  # fmt: skip
-def work_towards(one: WorkCommand, order: tuple[str, str, bool], used: int, site: Site) -> WorkCommand | None:
+def work_towards(
+    one: WorkCommand, order: tuple[str, str, bool], used: int, site: Site, it: Lex | None = None
+) -> WorkCommand | None:
     """Compose "film row 4 from its south end to its north end"."""
+    del it
     if order[0] == "rows" and one.mode == "rows":
         return replace(one, used=used)  # "row by row", as rows are worked anyway
     first, _, last = order[0].partition("_to_")

@@ -25,7 +25,7 @@ from fieldhand.planning.grammar.places.areas import edges
 from fieldhand.planning.grammar.places.numbers import amount
 from fieldhand.planning.grammar.places.sampling import SamplingPath, bare_zone, is_keep_out
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import are_rows, as_zone
+from fieldhand.planning.selections import are_rows, as_zone, is_one_row
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 
@@ -59,6 +59,8 @@ def lapped(
     """Compose "of the boundary" and "around the pond" behind "two laps"."""
     if where is not None and (are_rows(where) or where == edges()):
         return None
+    if edge is not None and edge.heading != "any":
+        return None
     return edge.selector if edge is not None else line or where or s.Trees()
 
 
@@ -88,6 +90,8 @@ def fence_itself(fence: s.Selector, site: Site) -> Tract | None:
 @construction("work: one=work [COMMA] AROUND", cost=0.2)
 def all_the_way_round(one: WorkCommand, used: int) -> WorkCommand | None:
     """Compose "film the deer fence all the way round"."""
+    if one.mode == "rows" and one.along is not None and one.along.whole_zone and one.sides == "one":
+        return replace(one, mode="perimeter", used=used)  # "film the paddock all the way round"
     return replace(one, used=used) if one.along is None or one.mode == "perimeter" else None
 
 
@@ -125,16 +129,23 @@ def _ground_of(fence: s.Selector, site: Site) -> BaseGeometry:
 
 
 @construction("work: [TAKE] times=laps where=lapped", "work: GO [FOR] times=laps where=lapped", cost=0.2)
-def so_many_laps(times: int, where: s.Selector, used: int) -> WorkCommand | None:
-    """Compose "do two laps of the boundary" and "three laps around the pond"."""
-    return _driven(where, times, used)
+@construction(
+    "work: [TAKE] times=laps way=CLOCKWISE where=lapped", "work: GO times=laps way=CLOCKWISE where=lapped", cost=0.2
+)
+def so_many_laps(times: int, where: s.Selector, used: int, way: Lex | None = None) -> WorkCommand | None:
+    """Compose "do two laps of the boundary" and "three laps clockwise around the pond"."""
+    made = _driven(where, times, used)
+    if made is None or way is None:
+        return made
+    return replace(made, heading="counterclockwise" if "against" in way.features else "clockwise")
 
 
 @construction("work: verb=GO times=often where=edge", "work: GO times=often [COMMA] where=edge", cost=0.1)
 def often_around(times: int, where: Tract, used: int, verb: Lex | None = None) -> WorkCommand | None:
     """Compose "drive twice around the pond"."""
     del verb
-    return _driven(where.selector, times, used)
+    made = _driven(where.selector, times, used)
+    return None if made is None else replace(made, heading=where.heading)
 
 
 @construction("work: times=often AROUND line=edge_line", "work: times=often AROUND where=region", cost=0.3)
@@ -156,7 +167,8 @@ def worked_in_laps(verb: Lex, used: int, times: int = 1, where: s.Selector | Tra
     """Compose "mow two laps around the paddock", "mow once along the fence" and "mow a strip around the pond"."""
     along = where.selector if isinstance(where, Tract) else where
     made = None if along is None else _driven(along, times, used)
-    return None if made is None else replace(made, action=verb.value)
+    heading = where.heading if isinstance(where, Tract) else "any"
+    return None if made is None else replace(made, action=verb.value, heading=heading)
 
 
 @construction(
@@ -172,11 +184,19 @@ def strip(far: Amount) -> float | None:
 
 @construction("work: verb=WORKV wide=strip where=lapped", cost=0.1, given=("robot",))
 def worked_strip(verb: Lex, wide: float, where: s.Selector, used: int, robot: RobotProfile) -> list[WorkCommand] | None:
-    """Compose "mow a strip 3 m wide around the paddock", in as many laps side by side; between two numbers, either."""
+    """Compose "mow a strip 3 m wide around the paddock"."""
+    return strip_around(verb, where, wide, used, robot) or None
+
+
+def strip_around(verb: Lex, where: s.Selector, wide: float | None, used: int, robot: RobotProfile) -> list[WorkCommand]:
+    """Return work on a strip along an edge, in as many laps side by side as it is wide; between two numbers, either."""
+    if wide is None:
+        once = _driven(where, 1, used)
+        return [] if once is None else [replace(once, action=verb.value)]
     implement = robot.action[verb.value].implement
     width_m = None if implement is None or not implement.covers else implement.width_m
     if width_m is None:
-        return None
+        return []
     laps = wide / width_m
     numbers = {max(1, math.floor(laps + _SAME_WIDTH)), max(1, math.ceil(laps - _SAME_WIDTH))}
     made = [_driven(where, times, used) for times in sorted(numbers)]
@@ -289,6 +309,34 @@ def rests_after_each_lap(one: WorkCommand, time: float, used: int) -> WorkComman
     """Compose "patrol the boundary three times with a ten-minute rest after each"."""
     made = rests_between_laps(one, time, used)
     return None if made is None else replace(made, rests_last=True)
+
+
+@construction(
+    "at_row_ends: AT DET FINISH OF each=EACH [DET] ROW", "at_row_ends: AT DET FINISH OF each=EACH [ONE]",
+    "at_row_ends: AT each=EACH ROW FINISH", "at_row_ends: AT each=EACH ROW [DASH] FINISH",
+    "at_row_ends: after=THEN each=EACH [DET] ROW", "at_row_ends: AT DET FINISH OF DET ROW",
+    "at_row_ends: AT ITS FINISH", "at_row_ends: AT DET FINISH", cost=0.1,
+)  # fmt: skip
+def at_row_ends(each: Lex | None = None, after: Lex | None = None) -> str | None:
+    """Compose "at the end of each row", and "at the end" of a single one."""
+    if after is not None and "after_doing" not in after.features:
+        return None
+    return "one" if each is None else "each"
+
+
+@construction(
+    "work: one=work [COMMA] [and_or_but] [WITH] time=wait ends=at_row_ends",
+    "work: one=work [COMMA] [and_or_but] ends=at_row_ends [COMMA] time=wait",
+    "work: one=work FULLSTOP time=wait ends=at_row_ends", "work: one=work FULLSTOP ends=at_row_ends [COMMA] time=wait",
+    cost=0.1,
+)  # fmt: skip
+def rests_at_row_ends(one: WorkCommand, time: float, ends: str, used: int) -> WorkCommand | None:
+    """Compose "film rows 7 and 8 and wait half a minute at the end of each row"."""
+    fits = one.mode == "rows" and one.laps == 1 and one.sides != "both" and not one.optional and not one.rest_s
+    single = one.along is not None and is_one_row(one.along)
+    if not fits or one.along is None or (ends == "one" and not single):
+        return None
+    return replace(one, rest_s=time, rests_rows=True, used=used)
 
 
 @dataclass(frozen=True, slots=True)

@@ -71,7 +71,7 @@ def _along(command: CaptureCommand, route: _Route) -> CaptureCommand | None:
     some = None if place is None else as_some(place.selector)
     if some is not None and some.count > 1 and all(one.count in (None, 1) for one in command.things):
         area = some.of if route.where is None else over(some.of, route.where)
-        return _at(command, route.path.over(area, route.site, count=some.count), some.count)
+        return _on_way(command, route, route.path.over(area, route.site, count=some.count), some.count)
     if place is not None and place.shape != "area":
         return None
     area_there = _area(command, route.where)
@@ -81,10 +81,21 @@ def _along(command: CaptureCommand, route: _Route) -> CaptureCommand | None:
         if count not in (None, 1):
             return None
         made = route.path.over(area_there, route.site, apart_m=command.spacing)
-        return _at(replace(command, spacing=None), made, None)
+        return _on_way(replace(command, spacing=None), route, made, None)
     if count is None or count < 2:
         return None
-    return _at(command, route.path.over(area_there, route.site, count=count), count)
+    return _on_way(command, route, route.path.over(area_there, route.site, count=count), count)
+
+
+def _on_way(
+    command: CaptureCommand, route: _Route, points: s.Selector | None, count: int | None
+) -> CaptureCommand | None:
+    """Return a command at points of a path, in their order if the path says so."""
+    made = _at(command, points, count)
+    in_order = isinstance(route.path, SamplingPath) and route.path.in_order
+    if made is None or made.place is None or not in_order:
+        return made
+    return replace(made, place=replace(made.place, in_order=True))
 
 
 def _on_grid(command: CaptureCommand, cells: _Cells) -> CaptureCommand | None:

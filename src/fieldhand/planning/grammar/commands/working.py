@@ -19,7 +19,7 @@ from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import are_rows, is_one_row, over, rows_kept
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
-from fieldhand.task.nodes.work_along import RowSides, WorkMode
+from fieldhand.task.nodes.work_along import RowSides, WorkHeading, WorkMode
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -37,6 +37,7 @@ class Tract:
         along: True if the phrase says "along".
         optional: True for as much of it as the budget allows.
         solid: True for what the robot drives around, and whose ground is not worked ("film the pond").
+        heading: Direction in which an edge is driven.
     """
 
     selector: s.Selector
@@ -46,6 +47,7 @@ class Tract:
     along: bool = False
     optional: bool = False
     solid: bool = False
+    heading: WorkHeading = "any"
 
 
 @construction(
@@ -86,10 +88,11 @@ def one_side(side: Lex, rows: s.Selector) -> Tract | None:
 @construction(
     "tract: EACHSIDE OF rows=rows", "tract: two_sides OF rows=rows", "tract: part=tract [FROM] EACHSIDE", cost=0.0
 )
+@construction("tract: EACHSIDE OF part=tract", cost=0.1)
 def both_sides(rows: s.Selector | None = None, part: Tract | None = None) -> Tract | None:
     """Compose "both sides of row 4" and "rows 3 to 8 from both sides"."""
     if part is not None:
-        return replace(part, sides="both") if part.mode == "rows" and part.sides == "one" else None
+        return replace(part, sides="both") if part.mode in ("rows", "aisles") and part.sides == "one" else None
     return None if rows is None else Tract(rows, "rows", sides="both")
 
 
@@ -264,9 +267,13 @@ def along_tract(command: WorkCommand, where: Tract, robot: RobotProfile) -> list
     covers = implement is not None and implement.covers
     if covers and where.solid:
         return []
+    if where.mode == "aisles" and where.sides == "both":  # of an aisle, by what works on both sides at once
+        if implement is None or implement.side != "both":
+            return []
+        where = replace(where, sides="one")
     mode = where.mode or ("area" if covers else "rows")
     command = replace(command, along=where.selector, mode=mode, sides=where.sides, every=where.every)
-    command = replace(command, optional=where.optional)
+    command = replace(command, optional=where.optional, heading=where.heading)
     if covers and mode == "rows" and not where.along and where.sides == "one" and not is_one_row(where.selector):
         return [command, replace(command, mode="aisles")]  # beside the rows, or the ground between them?
     return [command]
@@ -280,7 +287,8 @@ def patrol(verb: Lex, where: Tract | s.Selector, used: int) -> WorkCommand | Non
         return None
     if selector == edges():
         return None  # "the property line" is that of the site
-    return WorkCommand(action="", along=selector, mode="perimeter", used=used)
+    heading = where.heading if isinstance(where, Tract) else "any"
+    return WorkCommand(action="", along=selector, mode="perimeter", used=used, heading=heading)
 
 
 @construction("work: GO where=tract", cost=0.1)

@@ -154,7 +154,8 @@ def repeated_in(setting: Setting, state: DialogueState, area: s.Selector, used: 
     """
     steps = state.plan.steps
     area = _of_same_block(area, steps)
-    zone = bare_zone(area, setting.site)
+    on_ground_only = all(ground_of(step) for step in steps if _selects(step))
+    zone = bare_zone(area, setting.site) or (area.whole_zone if on_ground_only else "")
     places = [ground_of(step) if zone else _place_in(step, area) for step in steps]
     if state.scope or not steps or state.awaits_command:
         raise NotComposed(message("it is not clear what is repeated, and where", context="fault"))

@@ -27,6 +27,10 @@ def with_that_ground(state: DialogueState, command: T) -> tuple[DialogueState, T
     zone = None if ground is None else as_zone(ground)
 
     def known(value: Any) -> s.Selector | None:
+        if isinstance(value, s.PointAt) and value.origin == s.InZone(zone=THAT_GROUND):
+            return replace(value, origin=_named_last(state))
+        if isinstance(value, s.Beside) and value.of == s.InZone(zone=THAT_GROUND):
+            return replace(value, of=_tree_named_last(state))
         if value == s.Middle(of=s.InZone(zone=THAT_GROUND)) and zone is not None:
             return s.PointsIn(zone=zone.zone)
         if value == s.InZone(zone=THAT_GROUND) and ground is not None:
@@ -46,6 +50,39 @@ def with_that_ground(state: DialogueState, command: T) -> tuple[DialogueState, T
         return state, changed
     both: Any = changed
     return replace(state, area=None, lead=None), replace(both, used=both.used | area.used)
+
+
+def _named_last(state: DialogueState) -> s.Selector:
+    """Return what "it" is in "10 m west of it": the place named last, or that from which a point was measured.
+
+    Raises:
+        NotComposed: None was named, or several were.
+    """
+    last = state.lead or state.area
+    nodes = [node for node in p.walk(state.plan) if node.selector is not None]
+    place = last.place.selector if last is not None else nodes[-1].selector if nodes else None
+    while place is not None and isinstance(point := place.members[0], s.PointAt):
+        place = point.origin
+    zone = getattr(place, "zone", "")
+    if place is not None and zone and getattr(place, "part", "all") == "all":
+        return s.InZone(zone=zone)
+    if place is None or not place.single or place.relative:
+        raise NotComposed(
+            message("it is not clear which place is meant", context="fault"), advice=message("say its name")
+        )
+    return place
+
+
+def _tree_named_last(state: DialogueState) -> s.Selector:
+    """Return the tree named last, of which "then from the north" is another side.
+
+    Raises:
+        NotComposed: It was no tree.
+    """
+    found = _named_last(state)
+    if not found.named_tree:
+        raise NotComposed(message("it is not clear of what this is a side", context="fault"))
+    return found.of if isinstance(found, s.Beside) else found
 
 
 def ground_spoken_of(state: DialogueState) -> s.Selector | None:
@@ -75,7 +112,8 @@ def _grounds_in(selector: s.Selector) -> Iterator[s.Selector]:
         yield selector
         return
     name = getattr(selector, "zone", "")
-    if name and zone is None and getattr(selector, "part", "all") == "all":
+    of_all = getattr(selector, "part", "all") == "all" or getattr(selector, "shape", "") == "edge"
+    if name and zone is None and of_all:
         yield s.InZone(zone=name)
     for part in parts(selector):
         yield from _grounds_in(part)

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from fieldhand.language import message
 from fieldhand.places import selectors as s
+from fieldhand.planning.grammar.commands.going_round import mounted_side, usual_way
 from fieldhand.planning.grammar.commands.laps import goes_around, is_thin
 from fieldhand.planning.grammar.dialogue.open_amounts import require_amounts
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, Spans, with_step
 from fieldhand.planning.grammar.dialogue.that_ground import ground_spoken_of
 from fieldhand.planning.grammar.meaning import DriveCommand, WorkCommand
+from fieldhand.planning.grammar.places.counted import row_itself
+from fieldhand.planning.grammar.places.planted_rows import filled_rows
 from fieldhand.planning.grammar.places.sampling import bare_points, is_keep_out
-from fieldhand.planning.selections import are_rows
+from fieldhand.planning.grammar.row_by_row import MOST_ONE_BY_ONE, one_by_one
+from fieldhand.planning.selections import are_rows, is_one_row
 from fieldhand.task import plan as p
 from fieldhand.task.nodes.work_along import WorkHeading
 
@@ -54,6 +59,8 @@ def work_along(setting: Setting, state: DialogueState, command: WorkCommand) -> 
         state = replace(state, area=None, lead=None)
     if mode == "rows" and command.along is None and is_keep_out(along, setting.site):
         mode = "perimeter"
+    if mode == "perimeter" and not command.faced and is_keep_out(along, setting.site):
+        _require_facing(setting, command)
     if command.edge_side:
         _require_side(setting, command, along, mode)
     require_amounts(setting, command.action, command.parameters, command.used)
@@ -69,7 +76,11 @@ def work_along(setting: Setting, state: DialogueState, command: WorkCommand) -> 
         optional=command.optional,
         said=said,
     )
-    state = _with_rests(state, replace(node, laps=1), command, said) if command.rest_s else with_step(state, node)
+    rows = _each_row(along, setting) if command.rests_rows else ()
+    if command.rests_rows and not 0 < len(rows) <= MOST_ONE_BY_ONE:
+        raise NotComposed(message("it is not clear along which rows", context="fault"))
+    once = replace(node, laps=1)
+    state = _with_rests(state, once, command, said, rows) if command.rest_s else with_step(state, node)
     return replace(state, loop=None, captured=None, where=None, commands_in_sentence=state.commands_in_sentence + 1)
 
 
@@ -86,9 +97,23 @@ def _heading_back(state: DialogueState) -> WorkHeading:
     return _OPPOSITE.get(last.heading, "any")
 
 
-def _with_rests(state: DialogueState, once: p.WorkAlong, command: WorkCommand, said: Spans) -> DialogueState:
-    """Return the state after work in laps with a rest between one and the next."""
+def _each_row(along: s.Selector, setting: Setting) -> Sequence[s.Selector]:
+    """Return rows one by one, as they are named, or by their numbers: whole ones by their names."""
+    if all(is_one_row(part) for part in along.members):
+        return along.members
+    whole = [row_itself(row, setting.site) for row in filled_rows(along, setting.site)]
+    return sorted(whole, key=lambda row: (len(row.first), row.first)) or one_by_one(along, setting.site)
+
+
+def _with_rests(
+    state: DialogueState, once: p.WorkAlong, command: WorkCommand, said: Spans, rows: Sequence[s.Selector]
+) -> DialogueState:
+    """Return the state after work in laps with a rest between one and the next, or row by row with rests."""
     rest = p.Wait(id="", seconds=command.rest_s, said=said)
+    if command.rests_rows:
+        for row in rows:
+            state = with_step(with_step(state, replace(once, along=row)), rest)
+        return state
     rounds: p.Node = p.InOrder(id="", steps=(once, rest))
     if command.rests_last:
         return with_step(state, p.Repeat(id="", times=command.laps, body=rounds, said=said))
@@ -126,6 +151,22 @@ def _require_side(setting: Setting, command: WorkCommand, along: s.Selector, mod
         message("on which side of it the robot drives cannot be said yet", context="fault"),
         advice=message("leave the side out: it drives along both sides of a fence where it can"),
     )
+
+
+def _require_facing(setting: Setting, command: WorkCommand) -> None:
+    """Refuse a direction in which an implement on one side faces away from what it is driven around.
+
+    Raises:
+        NotComposed: It faces away from it.
+    """
+    hand = mounted_side(command.action, setting.robot)
+    if hand is None or command.heading in ("any", usual_way(hand, outside=True)):
+        return
+    if command.heading in ("clockwise", "counterclockwise"):
+        raise NotComposed(
+            message("that way round it faces away from what it is driven around", context="fault"),
+            advice=message("say the other direction, or 'looking outwards'"),
+        )
 
 
 def driven_to_ground(setting: Setting, state: DialogueState) -> DialogueState:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.places import (
     areas,
+    at_bearing,
     beside_them,
     by_reading,
     choices,
@@ -37,6 +38,7 @@ from fieldhand.planning.grammar.places import (
     spots,
     steps,
     vague,
+    zone_sides,
 )
 
 GRAMMAR = Grammar()
@@ -74,5 +76,7 @@ for _part in (
     vague,
     beside_them,
     open_parts,
+    zone_sides,
+    at_bearing,
 ):
     GRAMMAR.include(_part.GRAMMAR)

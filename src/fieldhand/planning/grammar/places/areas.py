@@ -57,6 +57,13 @@ def half(side: Lex) -> s.Selector | None:
     return s.Half(side=side.value)
 
 
+@construction("region: DET side=DIR OF whole=region", cost=0.3, given=("site",))
+def side_of_ground(side: Lex, whole: s.Selector, site: Site) -> s.Selector | None:
+    """Compose "the north of the paddock", of ground without plants."""
+    part = half(side)
+    return swapped(part, s.Trees(), whole) if part is not None and is_bare(whole, site) else None
+
+
 @construction("region: [DET] side=DIR QUARTER", cost=0.2)
 def quarter(side: Lex) -> s.Selector | None:
     """Compose "the north-east quarter"."""
@@ -251,9 +258,11 @@ def part_of(part: s.Selector, whole: s.Selector, site: Site) -> s.Selector | Non
 
 
 def is_bare(area: s.Selector, site: Site) -> bool:
-    """Return True for a zone in which no plants grow."""
+    """Return True for a zone that can be driven on, in which no plants grow."""
     zone = as_zone(area)
-    return zone is not None and zone == s.InZone(zone=zone.zone) and not (site.trees and ids_of(zone, site))
+    if zone is None or {one.kind for one in site.zones if one.name == zone.zone} <= {"keep_out"}:
+        return False
+    return zone == s.InZone(zone=zone.zone) and not (site.trees and ids_of(zone, site))
 
 
 def _is_larger(whole: s.Selector, part: s.Selector) -> bool:

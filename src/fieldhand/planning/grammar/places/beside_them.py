@@ -57,6 +57,16 @@ def beside_them(noun: Lex, n: int = 2, word: Lex | None = None) -> str | None:
     return "beside" if noun.plural or "plural" in noun.features or noun.text == "one" else None
 
 
+@construction(
+    "beside_them: [DET] TREE [DIRECTLY] EACHSIDE THERE", "beside_them: [DET] TREE [DIRECTLY] EACHSIDE OF IT",
+    "beside_them: [DET] TREE [DIRECTLY] EACHSIDE OF EACH [ONE]", "beside_them: [DET] NEIGHBOUR EACHSIDE [THERE]",
+    "beside_them: [DET] ONE EACHSIDE OF IT", cost=0.2,
+)  # fmt: skip
+def one_on_each_side() -> str:
+    """Compose "the plant on each side of it"."""
+    return "beside"
+
+
 @construction("beside_them: beside_them in_ DET ROW", "beside_them: beside_them in_ DET SAME ROW", cost=0.0)
 def beside_them_in_the_row() -> str:
     """Compose "its direct neighbours in the row"."""
@@ -161,11 +171,41 @@ def nearest_to_each(inner: Nominal) -> s.Selector | None:
 
 
 @construction(
+    "next_to_each: [ALSO] [OF] DET inner=nominal [DIRECTLY] NEXTTO IT",
+    "next_to_each: [ALSO] [OF] DET inner=nominal [DIRECTLY] BESIDE IT",
+    "next_to_each: [ALSO] AT DET inner=nominal [DIRECTLY] NEXTTO IT",
+    "next_to_each: [ALSO] [OF] n=count inner=nominal [DIRECTLY] NEXTTO IT",
+    "next_to_each: [ALSO] [OF] n=count inner=nominal [DIRECTLY] BESIDE IT", cost=0.1,
+)  # fmt: skip
+def next_to_each(inner: Nominal, n: int = 1) -> s.Selector | None:
+    """Compose "a healthy cucumber next to it"."""
+    return nearest_to_each(inner) if n == 1 else None
+
+
+@construction(
+    "next_to_each: [ALSO] [OF] DET flag=FLAG noun=NEIGHBOUR [OF] [IT]",
+    "next_to_each: [ALSO] [OF] n=count flag=FLAG noun=NEIGHBOUR",
+    "next_to_each: [ALSO] [OF] ITS flag=FLAG noun=NEIGHBOUR", cost=0.1,
+)  # fmt: skip
+def such_neighbour_of_each(flag: Lex, noun: Lex, n: int = 1) -> list[s.Selector] | None:
+    """Compose "a healthy neighbour"."""
+    if n != 1 or noun.plural or "plural" in noun.features:
+        return None
+    return [inner.selector for inner in such(flag, Nominal(s.Trees())) or ()] or None
+
+
+@construction(
+    "place: whole=place [COMMA] AND beside=next_to_each", "place: whole=place TOGETHERWITH beside=next_to_each",
     "place: whole=place [COMMA] AND near=nearest_to_each", "place: whole=place TOGETHERWITH near=nearest_to_each",
     cost=0.1, given=("site",),
 )  # fmt: skip
-def with_nearest_to_each(whole: PlaceMeaning, near: s.Selector, site: Site) -> PlaceMeaning | None:
-    """Compose "each cucumber with mildew and the nearest healthy plant beside it", each of them once."""
+def with_nearest_to_each(
+    whole: PlaceMeaning, site: Site, near: s.Selector | None = None, beside: s.Selector | None = None
+) -> PlaceMeaning | None:
+    """Compose "each cucumber with mildew and the nearest healthy plant beside it", each of them once.
+
+    Where none of the kind stands next to one of them, "next to it" is none.
+    """
     if whole.shape != "several" or not whole.each or whole.per is not None or whole.optional:
         return None
     plants = ids_of(whole.selector, site)
@@ -173,8 +213,8 @@ def with_nearest_to_each(whole: PlaceMeaning, near: s.Selector, site: Site) -> P
         return None
     found: list[str] = []
     for plant in sorted(plants, key=lambda name: site.by_id[name].index):
-        there = ids_of(s.Nearest(to=s.TreeIs(tree=plant), adjacent=True, of=near), site)
-        if not there:
+        there = ids_of(s.Nearest(to=s.TreeIs(tree=plant), adjacent=True, of=near or beside or s.Trees()), site)
+        if not there or (beside is not None and not there & {*_next_in_row({plant}, site)}):
             return None
         found += [name for name in there if name not in plants and name not in found]
     parts = tuple(s.TreeIs(tree=name) for name in found)

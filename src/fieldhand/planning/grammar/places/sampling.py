@@ -45,11 +45,15 @@ class SamplingPath:
         shape: Its form.
         legs: Number of legs of a zigzag.
         off_m: Distance from an edge in metres; None for the usual one.
+        part: Side of an edge.
+        in_order: True if the phrase says that its points are visited in their order, which is clockwise.
     """
 
     shape: PathShape
     legs: int
     off_m: float | None = None
+    part: AreaPart = "all"
+    in_order: bool = False
 
     def over(self, area: s.Selector | None, site: Site, *, count: int = 0, apart_m: float = 0.0) -> s.Selector | None:
         """Return so many places, or places so far apart, along the path across an area, or across the site.
@@ -58,7 +62,8 @@ class SamplingPath:
         """
         if self.shape == "edge":
             known = None if area is None else as_zone(area)
-            edge = s.Transect(count=count, apart_m=apart_m, shape="edge", zone="" if known is None else known.zone)
+            zone = "" if known is None else known.zone
+            edge = s.Transect(count=count, apart_m=apart_m, shape="edge", zone=zone, part=self.part)
             return edge if self.off_m is None else replace(edge, off_m=self.off_m)
         ground = bare_ground(area, site)
         if ground is not None:
@@ -135,12 +140,17 @@ def is_keep_out(area: s.Selector, site: Site) -> bool:
     return bool(named) and all(one.kind == "keep_out" for one in named)
 
 
-def bare_points(area: s.Selector, site: Site, count: int, *, random: bool = False) -> s.PointsIn | None:
-    """Return so many free points of ground without plants: a zone, a half or a quarter of one; None for other areas."""
+def bare_points(area: s.Selector, site: Site, count: int, *, random: bool = False) -> s.PointsIn | s.Transect | None:
+    """Return so many free points of ground without plants: a zone, a half or a quarter of one; None for other areas.
+
+    What the robot cannot enter has them along its edge.
+    """
     if (named := compass_part(area)) is not None:
         part, of = named
         whole = bare_points(of, site, count, random=random)
         return replace(whole, part=part) if whole is not None and whole.part == "all" else None
+    if not random and area.whole_zone and is_keep_out(area, site):
+        return s.Transect(count=count, shape="edge", zone=area.whole_zone)
     if area == s.Trees() and not site.trees:
         return s.PointsIn(count=count, random=random)
     zone = bare_zone(area, site)

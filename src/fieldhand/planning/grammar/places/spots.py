@@ -118,7 +118,8 @@ def middle_of(where: s.Selector, site: Site, noun: Lex | None = None) -> PlaceMe
     if noun is None and compass_part(where) is not None and (free := bare_points(where, site, 1)) is not None:
         return PlaceMeaning(free, "one")
     if (zone := as_zone(where)) is not None:
-        return PlaceMeaning(s.PointsIn(zone=zone.zone), "one") if not zone.outside else None
+        whole = not zone.outside and as_edge(zone.of) is None
+        return PlaceMeaning(s.PointsIn(zone=zone.zone), "one") if whole else None
     if (edge := as_edge(where)) is not None:
         return PlaceMeaning(s.EdgeMiddle(side=edge.side, of=edge.of), "one")
     return PlaceMeaning(s.Middle(of=where), "one")
