@@ -52,10 +52,11 @@ _BESIDE_THEM = re.compile(
     r"|\b(?:next to|beside|alongside|neighbou?rs? of|sides? of)"
     r" (?:the (?:\w+ ){0,2}\w+s|those|every|any|all|\w+s with)\b"
 )
-#: Pattern of a half that is named by a place near it, or by words that no map explains.
+#: Pattern of a half that is named by a place near it, or by words that no map explains, and of both ends.
 _SOME_HALF = re.compile(
     r"\bhalf (?:of (?:\w+ ){1,4})?(?:nearest|closest|next)\b"
     r"|\b(?:foot|head|lowest|highest|far|near|low) (?:end |side |part |point )?of\b"
+    r"|\b(?:both|each|either|two|opposite) ends?\b|\bends of\b"
 )
 #: Words that continue a series of numbers: "5, 15, 25 and so on".
 _SERIES = re.compile(r"\b(?:and so (?:on|forth)|etc|like that)\b|\bevery \S+ (?:after|until|up|to)\b")

@@ -488,8 +488,9 @@ def stay(used: int) -> StopCommand:
 
 
 @construction("again: REPEAT", "again: REPEAT relation place=place", cost=0.2)
+@construction("again: AGAIN relation place=place", "again: relation place=place AGAIN", cost=0.6)
 def again(used: int, place: PlaceMeaning | None = None) -> Again:
-    """Compose "do the same at tree 9"."""
+    """Compose "do the same at tree 9" and "(and) again at tree 9"."""
     return Again(place, used)
 
 

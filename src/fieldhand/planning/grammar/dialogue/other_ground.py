@@ -15,9 +15,10 @@ from fieldhand.task import plan as p
 def ground_of(step: p.Node) -> str | None:
     """Return the zone in which all places of a step are points of ground; None if there are others, or none."""
     found = {
-        node.selector.zone if isinstance(node.selector, s.PointsIn | s.Transect | s.Grid) else ""
+        one.zone if isinstance(one, s.PointsIn | s.Transect | s.Grid) else ""
         for node in p.walk(step)
         if node.selector is not None
+        for one in node.selector.members
     }
     return (found.pop() or None) if len(found) == 1 else None
 
@@ -37,6 +38,8 @@ def on_ground(step: p.Node, zone: str) -> p.Node:
 
 
 def _in_zone(points: s.Selector, zone: str) -> s.Selector:
+    if isinstance(points, s.UnionOf):
+        return replace(points, parts=tuple(_in_zone(one, zone) for one in points.parts))
     return replace(points, zone=zone) if isinstance(points, s.PointsIn | s.Transect | s.Grid) else points
 
 

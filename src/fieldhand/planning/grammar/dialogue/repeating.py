@@ -21,7 +21,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
 )
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, done_at, with_step
 from fieldhand.planning.grammar.meaning import Again, DriveCommand, PlaceMeaning, wait_thing
-from fieldhand.planning.grammar.places.sampling import bare_zone
+from fieldhand.planning.grammar.places.sampling import bare_zone, whole_zone
 from fieldhand.planning.selections import (
     are_rows,
     blocks_of,
@@ -154,8 +154,8 @@ def repeated_in(setting: Setting, state: DialogueState, area: s.Selector, used: 
     """
     steps = state.plan.steps
     area = _of_same_block(area, steps)
-    zone = bare_zone(area, setting.site)
-    places = [ground_of(step) if zone else _place_in(step, area) for step in steps]
+    bare, zone = bare_zone(area, setting.site), whole_zone(area)
+    places = [(zone and ground_of(step)) or (None if bare else _place_in(step, area)) for step in steps]
     if state.scope or not steps or state.awaits_command:
         raise NotComposed(message("it is not clear what is repeated, and where", context="fault"))
     old = next((place for place in reversed(places) if place is not None), None)

@@ -37,6 +37,7 @@ from fieldhand.planning.grammar.places import (
     spots,
     steps,
     vague,
+    zone_ends,
 )
 
 GRAMMAR = Grammar()
@@ -74,5 +75,6 @@ for _part in (
     vague,
     beside_them,
     open_parts,
+    zone_ends,
 ):
     GRAMMAR.include(_part.GRAMMAR)

@@ -1,0 +1,91 @@
+"""Sentences that build on those before: "when you have them all", "and again in the herb patch", "do the same in"."""
+
+from __future__ import annotations
+
+import pytest
+
+from fieldhand.robot.loader import load_robot
+from fieldhand.robot.model import RobotProfile
+from fieldhand.site.loader import open_site
+from fieldhand.site.model import Site
+from planning.grammar.field_requests import name, require_plan, require_question
+from support.sites.gardens import glasshouse, pasture, vegetable_garden
+
+GARDEN, GLASSHOUSE, PASTURE, ORCHARD = vegetable_garden(), glasshouse(), pasture(), open_site("demo")
+HUSKY, AMIGA, TRACTOR = load_robot("husky"), load_robot("amiga"), load_robot("tractor")
+
+# What is done when all of it is done.
+HOTTEST = "for Where(crop, eq, squash): [picture = r1]; {}ByReading(r1, canopy_temperature){}"
+
+
+@pytest.mark.parametrize(
+    ("request_", "plan"),
+    [
+        ("Take a thermal picture of every squash. When you have them all, go back to the hottest one and measure the "
+         "air temperature there.", HOTTEST.format("go ", "; air")),
+        ("Photograph every squash, and once they have all been photographed go to the hottest one and read CO2.",
+         HOTTEST.format("go ", "; co2")),
+        ("Photograph every squash. When you are through with the bed, read CO2 at the hottest plant.",
+         HOTTEST.format("co2 @ ", "")),
+        ("Photograph every squash. After you have done them all, read CO2 at the hottest one.",
+         HOTTEST.format("co2 @ ", "")),
+        ("Photograph every squash. Once you've got the lot, return to the warmest and read CO2.",
+         HOTTEST.format("go ", "; co2")),
+        ("Photograph every squash. When all of them are done, read CO2 at the rose bed.",
+         "for Where(crop, eq, squash): [picture]; co2 @ PointsIn(rose bed)"),
+        ("Photograph every squash. After the last one, drive to the manure heap and read CO2.",
+         "for Where(crop, eq, squash): [picture]; co2 @ PointsIn(manure heap)"),
+        ("Photograph every squash. With all the pictures taken, go to the hottest one.", HOTTEST.format("go ", "")),
+        ("Photograph every squash. When the whole bed is done, measure CO2 at the manure heap.",
+         "for Where(crop, eq, squash): [picture]; co2 @ PointsIn(manure heap)"),
+    ],
+)  # fmt: skip
+def test_work_follows_when_all_before_it_is_done(request_: str, plan: str) -> None:
+    require_plan(GARDEN, HUSKY, request_, plan)
+
+
+ELSEWHERE = [
+    (GARDEN, HUSKY, "Measure CO2 at the rose bed and again in the manure heap, and report how far apart the two are.",
+     "co2 @ PointsIn(rose bed); co2 @ PointsIn(manure heap)"),
+    (GARDEN, HUSKY, "Take the air temperature at the rose bed and once more at the manure heap.",
+     "air @ PointsIn(rose bed); air @ PointsIn(manure heap)"),
+    (GARDEN, HUSKY, "Read CO2 at the rose bed, then again at the street gate.",
+     "co2 @ PointsIn(rose bed); go GateIs(street gate); co2"),
+    (GARDEN, HUSKY, "Read CO2 at the rose bed and a second time at the manure heap.",
+     "co2 @ PointsIn(rose bed); co2 @ PointsIn(manure heap)"),
+    (ORCHARD, HUSKY, "Measure CO2 and the air temperature at tree 4 and again at tree 9.",
+     "co2 @ TreeIs(4); air; go TreeIs(9); co2; air"),
+    (GLASSHOUSE, HUSKY, "Measure the CO2 in the middle of the hot bay and do the same in the mild bay.",
+     "co2 @ PointsIn(hot bay); co2 @ PointsIn(mild bay)"),
+    (GLASSHOUSE, HUSKY,
+     "Measure the CO2 at the west end and the east end of the hot bay, then do the same in the mild bay.",
+     "for UnionOf(EdgeMiddle(west, of InZone(hot bay))+EdgeMiddle(east, of InZone(hot bay))) given: [co2]; "
+     "for UnionOf(EdgeMiddle(west, of InZone(mild bay))+EdgeMiddle(east, of InZone(mild bay))) given: [co2]"),
+    (PASTURE, HUSKY, "Read CO2 at the north and the south end of the bank and do the same in the boggy corner.",
+     "for UnionOf(PointsIn(bank, north)+PointsIn(bank, south)) given: [co2]; "
+     "for UnionOf(PointsIn(boggy corner, north)+PointsIn(boggy corner, south)) given: [co2]"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("site", "robot", "request_", "plan"), ELSEWHERE, ids=name)
+def test_the_same_is_done_elsewhere(site: Site, robot: RobotProfile, request_: str, plan: str) -> None:
+    require_plan(site, robot, request_, plan)
+
+
+ENDS = [
+    (GLASSHOUSE, "Read the air temperature at both ends of the hot bay.",
+     "for UnionOf(EdgeMiddle(west, of InZone(hot bay))+EdgeMiddle(east, of InZone(hot bay))) given: [air]"),
+    (GLASSHOUSE, "Read CO2 at the west end of the mild bay.", "co2 @ EdgeMiddle(west, of InZone(mild bay))"),
+    (PASTURE, "Read CO2 at the western end of the bank, then at its eastern end.",
+     "for UnionOf(PointsIn(bank, west)+PointsIn(bank, east)) given: [co2]"),
+    (GARDEN, "Read CO2 at the north end of bed 3.", "co2 @ InRow(1, 1, north, of Rows(3, 3))"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("site", "request_", "plan"), ENDS, ids=name)
+def test_areas_have_ends(site: Site, request_: str, plan: str) -> None:
+    require_plan(site, HUSKY, request_, plan)
+
+
+def test_which_are_the_ends_of_an_area_that_is_not_long_is_asked() -> None:
+    require_question(PASTURE, HUSKY, "Read CO2 at both ends of the cowslip patch.", 2)
