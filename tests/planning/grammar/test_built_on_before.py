@@ -8,7 +8,7 @@ from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.loader import open_site
 from fieldhand.site.model import Site
-from planning.grammar.field_requests import name, require_plan, require_question
+from planning.grammar.field_requests import name, require_plan, require_question, require_refusal
 from support.sites.gardens import glasshouse, pasture, vegetable_garden
 
 GARDEN, GLASSHOUSE, PASTURE, ORCHARD = vegetable_garden(), glasshouse(), pasture(), open_site("demo")
@@ -89,3 +89,45 @@ def test_areas_have_ends(site: Site, request_: str, plan: str) -> None:
 
 def test_which_are_the_ends_of_an_area_that_is_not_long_is_asked() -> None:
     require_question(PASTURE, HUSKY, "Read CO2 at both ends of the cowslip patch.", 2)
+
+
+MEAN = "for {0}: [picture = r1]; if {2}(r1 > 30 degC): [for {1}: [picture]]"
+ROWS = MEAN.format("Rows(4, 4)", "Rows(5, 5)", "mean")
+ASKED_FOR = [
+    ("Get the average leaf temperature of row 4, and if that is above 30 degrees do row 5 as well.", ROWS),
+    ("What is the average leaf temperature of row 4? If it is above 30 degrees do row 5 as well.", ROWS),
+    ("Find the mean leaf temperature of row 4; if it exceeds 30 degrees, do the same in row 5.", ROWS),
+    ("Photograph row 4 and work out the average. If it is above 30 degrees, do row 5 too.", ROWS),
+    ("Take thermal pictures of row 4, and if the average is above 30 degrees do row 5 as well.", ROWS),
+    ("What is the highest leaf temperature of row 4? If it is above 30 degrees, do row 5 too.",
+     MEAN.format("Rows(4, 4)", "Rows(5, 5)", "maximum")),
+    ("Measure the average canopy temperature of the squash. If it is over 30 degrees, photograph the kale as well.",
+     MEAN.format("Where(crop, eq, squash)", "Where(crop, eq, kale)", "mean")),
+    ("Photograph every third plant of row 4. If the average is over 30 degrees do row 5 as well.",
+     MEAN.format("EveryNth(3, of Rows(4, 4))", "EveryNth(3, of Rows(5, 5))", "mean")),
+    ("Take five CO2 readings in the rose bed. If the average is above 500 ppm, do the manure heap too.",
+     "for PointsIn(rose bed, 5): [co2 = r1]; if mean(r1 > 500 ppm): [for PointsIn(manure heap, 5): [co2]]"),
+    ("Take the air temperature at the rose bed. If it is above 30 degrees do the manure heap as well.",
+     "air @ PointsIn(rose bed) = r1; if r1 > 30 degC: [air @ PointsIn(manure heap)]"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("request_", "plan"), ASKED_FOR)
+def test_it_is_the_statistic_that_was_asked_for(request_: str, plan: str) -> None:
+    require_plan(GARDEN, HUSKY, request_, plan)
+
+
+@pytest.mark.parametrize(
+    ("request_", "why"),
+    [
+        ("Measure the average leaf temperature of each row. If it is above 30 degrees, photograph the kale.",
+         "it is not clear which of them"),
+        ("Get the average leaf temperature of row 4. Wherever it is above 30 degrees, read CO2 too.", ""),
+    ],
+)  # fmt: skip
+def test_one_of_several_means_is_not_guessed(request_: str, why: str) -> None:
+    require_refusal(GARDEN, HUSKY, request_, why)
+
+
+def test_at_how_many_places_of_bare_ground_a_mean_is_measured_is_asked() -> None:
+    require_question(GARDEN, HUSKY, "Measure the average CO2 in the rose bed.", 0)

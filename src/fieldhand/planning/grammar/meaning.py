@@ -282,6 +282,7 @@ class CaptureCommand:
         instead: True if it is done in place of what another case has.
         every_s: Seconds from one time to the next, if it is done again and again ("every ten minutes").
         for_s: Seconds for which it is done again and again ("for an hour").
+        of: Statistic that is asked for, which "it" means behind it ("the average CO2 of"); empty for the readings.
     """
 
     things: tuple[Thing, ...]
@@ -294,6 +295,7 @@ class CaptureCommand:
     instead: bool = False
     every_s: float = 0.0
     for_s: float = 0.0
+    of: Statistic | Literal[""] = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -638,9 +640,15 @@ class Total:
 
 @dataclass(frozen=True, slots=True)
 class Reported:
-    """A wish to be told what the report of the mission says anyway ("and tell me the average")."""
+    """A wish to be told what the report of the mission says anyway ("and tell me the average").
+
+    Attributes:
+        used: Tokens of the phrase.
+        of: The only statistic that it names; empty for other figures.
+    """
 
     used: int
+    of: Statistic | Literal[""] = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -576,7 +576,7 @@ def the_same_way(place: PlaceMeaning, used: int) -> Again:
 @construction("again: word=TAKE place=place", cost=1.5)
 def do_there(word: Lex, place: PlaceMeaning, used: int) -> Again | None:
     """Compose "do tree 9 (as well)", where the same is done."""
-    return Again(place, used) if "performs" in word.features and place.shape in ("one", "several") else None
+    return Again(place, used) if "performs" in word.features and place.shape in ("one", "several", "area") else None
 
 
 @construction("again: REPEAT where=rows", cost=0.2)

@@ -6,9 +6,11 @@ behind the captures asks for nothing more, if it is about these captures.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Literal, cast
 
 from fieldhand.places import selectors as s
+from fieldhand.places.series_statistics import Statistic as StatisticName
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import (
     CaptureCommand,
@@ -36,12 +38,14 @@ class Finding:
         places: Places that it names.
         asks: True for a clause that asks ("which is higher").
         extreme: True for the place with the highest or lowest reading ("the driest one").
+        of: The only statistic that the phrase names, which "it" may mean behind it.
     """
 
     quantities: tuple[str, ...] = ()
     places: tuple[PlaceMeaning, ...] = ()
     asks: bool = False
     extreme: bool = False
+    of: StatisticName | Literal[""] = ""
 
 
 @construction("finding: one=statistic", cost=0.1)
@@ -49,7 +53,7 @@ def statistic(one: Statistic) -> Finding:
     """Compose "the average" and "the mean CO2 of the slope"."""
     quantities = (one.quantity,) if one.quantity else ()
     extreme = one.of in ("minimum", "maximum") and not quantities
-    return Finding(quantities, () if one.place is None else (one.place,), extreme=extreme)
+    return Finding(quantities, () if one.place is None else (one.place,), extreme=extreme, of=one.of)
 
 
 @construction("finding: [DET] STATISTIC READING", cost=0.2)
@@ -217,14 +221,30 @@ def readings_and_more(figure: Finding, more: Finding) -> Finding:
 
 
 @construction(
-    "capture: TELLME DET STATISTIC [OF] [DET] things=things way=relation place=place",
-    "capture: WHATIS DET STATISTIC [OF] [DET] things=things way=relation place=place",
-    "capture: COMPARES [DET] [STATISTIC] [OF] [DET] things=things way=relation place=place",
+    "wants_figure: TELLME", "wants_figure: WHATIS", "wants_figure: GETFIGURE", "wants_figure: ASKMEAN",
+    "wants_figure: MEASURE", "wants_figure: TAKE",
+    cost=0.0,
+)  # fmt: skip
+def wants_figure() -> str:
+    """Compose "get" and "work out" before a statistic of readings."""
+    return "get"
+
+
+@construction(
+    "capture: wants_figure DET of=STATISTIC [OF] [DET] things=things way=relation place=place",
+    "capture: COMPARES [DET] [of=STATISTIC] [OF] [DET] things=things way=relation place=place",
     cost=0.4,
 )
-def measured_for(things: tuple[Thing, ...], way: str, place: PlaceMeaning, used: int) -> CaptureCommand | None:
-    """Compose "report the mean of CO2 at four spots on the slope" and "compare CO2 on the slope and on the bank"."""
-    return CaptureCommand(things, place, used, relation=way) if place.shape in ("one", "several", "area") else None
+def measured_for(
+    things: tuple[Thing, ...], way: str, place: PlaceMeaning, used: int, of: Lex | None = None
+) -> CaptureCommand | None:
+    """Compose "get the mean CO2 of four spots on the slope" and "compare CO2 on the slope and on the bank"."""
+    if place.shape not in ("one", "several", "area") or (of is not None and things[0].count is not None):
+        return None
+    if of is None or place.shape == "one":
+        return CaptureCommand(things, place, used, relation=way)
+    several = tuple(replace(one, plural=place.shape == "area") for one in things)
+    return CaptureCommand(several, place, used, relation=way, of=cast(StatisticName, of.value))
 
 
 @construction("them_all: THEMALL [WITHEACHOTHER]", cost=0.1)
@@ -273,7 +293,7 @@ def reported(
         own &= ~(clause.command.used | (0 if clause.before is None else clause.before.used))
     if joint is not None:
         own &= ~joint.used
-    return Said((*before.clauses, LinkedCommand(joint, Reported(own))))
+    return Said((*before.clauses, LinkedCommand(joint, Reported(own, figure.of))))
 
 
 def _measured(action: str, robot: RobotProfile) -> frozenset[str]:

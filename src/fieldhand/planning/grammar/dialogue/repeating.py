@@ -9,7 +9,7 @@ from typing import Any, cast
 from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.driving import drive, visits
-from fieldhand.planning.grammar.dialogue.other_ground import ground_of, on_ground
+from fieldhand.planning.grammar.dialogue.other_ground import ground_of, in_zone, on_ground, zone_of_points
 from fieldhand.planning.grammar.dialogue.plans import (
     Path,
     as_choice,
@@ -181,6 +181,15 @@ def repeated_in(setting: Setting, state: DialogueState, area: s.Selector, used: 
         where=None if visits is None else PlaceMeaning(visits.select, "several"),
         commands_in_sentence=state.commands_in_sentence + 1,
     )  # fmt: skip
+
+
+def moved_to(places: s.Selector, area: s.Selector) -> s.Selector:
+    """Return the places of another area that are chosen like some places; all of it if these are none of an area."""
+    zone = whole_zone(area)
+    if zone and zone_of_points(places):
+        return in_zone(places, zone)
+    part = replaceable_area(places, area)
+    return area if part is None else swapped(places, part, area)
 
 
 def _of_same_block(area: s.Selector, steps: Sequence[p.Node]) -> s.Selector:

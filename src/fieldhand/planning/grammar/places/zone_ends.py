@@ -9,9 +9,9 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import PlaceMeaning
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.places.planted_rows import rows_out_of
-from fieldhand.planning.grammar.places.sampling import bare_points, is_keep_out
+from fieldhand.planning.grammar.places.sampling import bare_points, is_keep_out, whole_zone
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import are_rows, as_zone, is_one_row
+from fieldhand.planning.selections import are_rows, is_one_row
 from fieldhand.site.model import Site
 from fieldhand.terms import Side
 
@@ -44,8 +44,8 @@ def ends_named(side: Lex, first: tuple[Side, ...] = (), then: str = "") -> tuple
 
 
 @construction(
-    "place: ends=zone_ends in_ whole=region", "place: ends=zone_ends in_ whole=region [COMMA] AND [AT] last=own_end",
-    "place: ends=zone_ends in_ whole=region [COMMA] [AND] then [AT] last=own_end",
+    "place: ends=zone_ends OF whole=region", "place: ends=zone_ends OF whole=region [COMMA] AND [AT] last=own_end",
+    "place: ends=zone_ends OF whole=region [COMMA] [AND] then [AT] last=own_end",
     cost=0.1, given=("site",),
 )  # fmt: skip
 def ends_of_area(
@@ -71,15 +71,16 @@ def own_end(side: Lex) -> tuple[Side, ...] | None:
 
 
 @construction(
-    "place: [BOTH] [DET] noun=FINISH in_ whole=region", "place: [DET] n=count noun=FINISH in_ whole=region",
-    "place: ANY noun=FINISH in_ whole=region", "place: EACH noun=FINISH in_ whole=region",
+    "place: [BOTH] [DET] [n=count] noun=FINISH OF whole=region", "place: each=ANY noun=FINISH OF whole=region",
+    "place: each=EACH noun=FINISH OF whole=region",
     cost=0.2, given=("site",),
 )  # fmt: skip
-def both_ends_of_area(noun: Lex, whole: s.Selector, site: Site, n: int = 2) -> list[PlaceMeaning] | None:
+def both_ends_of_area(
+    noun: Lex, whole: s.Selector, site: Site, n: int = 2, each: Lex | None = None
+) -> list[PlaceMeaning] | None:
     """Compose "both ends of the slope": which two, if it is not long in one direction?"""
-    if n != 2 or are_rows(whole) or as_zone(whole) is None:
+    if n != 2 or are_rows(whole) or not whole_zone(whole) or (each is None and not noun.plural):
         return None
-    del noun
     made = [ends_of_area(ends, whole, site) for ends in _axes(whole, site)]
     return [one for one in made if one is not None] or None
 
@@ -97,8 +98,7 @@ def _axes(whole: s.Selector, site: Site) -> list[tuple[Side, ...]]:
 
 def _end(whole: s.Selector, side: Side, site: Site) -> s.Selector | None:
     """Return the end of an area: the middle of an edge of its plants, or of a half of its ground; None for a row."""
-    zone = as_zone(whole)
-    if zone is None or zone.outside or zone.margin_m or is_keep_out(whole, site):
+    if not whole_zone(whole) or is_keep_out(whole, site):
         return None
     if bare_points(whole, site, 1) is not None:
         return bare_points(s.Half(side=side, of=whole), site, 1)
