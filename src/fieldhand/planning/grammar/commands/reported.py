@@ -15,6 +15,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import (
     CaptureCommand,
     Connective,
+    InTurn,
     LinkedCommand,
     PlaceMeaning,
     Reported,
@@ -96,7 +97,12 @@ def readings_said(word: Lex | None = None, noun: Lex | None = None, n: int = 0) 
     "finding: WHICHONE [of_the_two] IS [BYFAR] [DET] MOSTREAD [ONE]",
     "finding: WHICHONE [of_the_two] IS one=statistic",
     "finding: DIFFERS",
-    "finding: DIFFERS IS",
+    "finding: HOWAPART who_differs [IS]",
+    "finding: HOWAPART IS who_differs",
+    "finding: HOWDIFFER who_differs DIFFERV",
+    "finding: HOWBIG [DET] DIFFERENCE [BETWEENTHEM] [IS]",
+    "finding: HOWBIG IS [DET] DIFFERENCE [BETWEENTHEM]",
+    "finding: [DET] DIFFERENCE BETWEENTHEM",
     "finding: WHERE IT IS STATISTIC",
     "finding: WHERE IT IS MOSTREAD",
     "finding: WHERE [DET] noun=NOUN IS STATISTIC",
@@ -111,6 +117,46 @@ def which_is_more(one: Statistic | None = None, noun: Lex | None = None) -> Find
             return None
         found = Finding((noun.value.quantities[0],))
     return Finding(found.quantities, found.places, asks=True)
+
+
+@construction(
+    "who_differs: IT", "who_differs: them_all", "who_differs: readings_said", "who_differs: DET [n=count] FIGURES",
+    "who_differs: DET [n=count] PARTWORD", "who_differs: DET [n=count] GROUPNOUN",
+    cost=0.1,
+)  # fmt: skip
+def who_differs(n: int = 0) -> str:
+    """Compose "they", "the two values" and "the crops" of "how they differ"."""
+    del n
+    return "they"
+
+
+@construction(
+    "finding: whether [DET] claimant [IS] RIGHTWORD", "finding: whether THEREIS [DET] DIFFERENCE [BETWEENTHEM]",
+    cost=0.2,
+)  # fmt: skip
+def whether_so() -> Finding:
+    """Compose "whether she is right" and "if that is true", of what was said before."""
+    return Finding(asks=True)
+
+
+@construction("whether: WHETHER", "whether: IF", cost=0.0)
+@construction("claimant: PEOPLE", "claimant: IT", "claimant: CLAIMANT", "claimant: IMPERSONAL", cost=0.0)
+def whether() -> str:
+    """Compose "whether", and who is right."""
+    return "whether"
+
+
+@construction(
+    "finding: whether one=place IS BARECMP",
+    "finding: whether one=place IS BARECMP THAN other=place",
+    "finding: whether one=place IS CMP other=place",
+    "finding: whether IT IS BARECMP relation one=place",
+    "finding: whether IT IS BARECMP relation one=place THAN [relation] other=place",
+    cost=0.2,
+)
+def whether_more(one: PlaceMeaning, other: PlaceMeaning | None = None) -> Finding:
+    """Compose "whether the slope is warmer" and "if it is cooler at the pond than on the slope"."""
+    return Finding(places=(one,) if other is None else (one, other), asks=True)
 
 
 @construction(
@@ -158,6 +204,7 @@ def of_them(n: int = 0, noun: Lex | None = None) -> str:
     "finding: one=finding OF DET READING",
     "finding: one=finding ONAVERAGE",
     "finding: one=finding PER PARTWORD",
+    "finding: one=finding BETWEEN [DET] [n=count] PARTWORD",
     "finding: one=finding PER TREE",
     "finding: one=finding PER ROW",
     "finding: one=finding INEACHCASE",
@@ -211,6 +258,29 @@ def both(first: Finding, second: Finding) -> Finding:
 def report_wish(figure: Finding) -> Finding:
     """Compose "tell me the average" and "compare the averages"."""
     return figure
+
+
+@construction("one_side: one=finding", "one_side: one=readings_said", "one_side: one=them_all", cost=0.0)
+@construction("one_side: DET ONE relation place=place", "one_side: DET READING relation place=place", cost=0.1)
+@construction("one_side: DET ORD [ONE]", "one_side: DET ORD READING", "one_side: DET OTHERS", "one_side: IT", cost=0.2)
+@construction("one_side: place=place", "one_side: OTHERS", "one_side: DET [n=count] PARTWORD", cost=0.3)
+def one_side(one: Finding | None = None, place: PlaceMeaning | None = None, n: int = 0) -> Finding | None:
+    """Compose "their average", "the one from the mast" and "the slope" as one side of a comparison."""
+    del n
+    if place is not None and place.refers_back:
+        return None
+    return one or Finding(places=() if place is None else (place,))
+
+
+@construction(
+    "report_wish: COMPARES first=one_side WITH second=one_side",
+    "report_wish: COMPARES first=one_side AND second=one_side",
+    "report_wish: COMPARES first=one_side AT second=one_side",
+    cost=0.3,
+)
+def compared_with(first: Finding, second: Finding) -> Finding:
+    """Compose "compare their average with the one from the mast"."""
+    return both(first, second)
 
 
 @construction("report_wish: TELLME figure=readings_said TOGETHERWITH more=finding", cost=0.1)
@@ -281,11 +351,12 @@ def reported(
     before: Said, figure: Finding, used: int, robot: RobotProfile, joint: Connective | None = None
 ) -> Said | None:
     """Compose "read CO2 at trees 4 and 9 and tell me the average", of what is read there."""
-    done = [one.command for one in before.clauses if isinstance(one.command, CaptureCommand)]
+    said = [one.command.command if isinstance(one.command, InTurn) else one.command for one in before.clauses]
+    done = [one for one in said if isinstance(one, CaptureCommand)]
     if not done or not (joint is None or joint.full or joint.both or joint.bare or joint.then):
         return None
     read = {name for one in done for thing in one.things for name in _measured(thing.action, robot)}
-    known = {zone for one in before.clauses for zone in _places(getattr(one.command, "place", None))}
+    known = {zone for one in said for zone in _places(getattr(one, "place", None))}
     if not read or not {*figure.quantities} <= read or not all(_places(one) <= known for one in figure.places):
         return None
     own = used
