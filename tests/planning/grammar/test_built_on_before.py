@@ -131,3 +131,90 @@ def test_one_of_several_means_is_not_guessed(request_: str, why: str) -> None:
 
 def test_at_how_many_places_of_bare_ground_a_mean_is_measured_is_asked() -> None:
     require_question(GARDEN, HUSKY, "Measure the average CO2 in the rose bed.", 0)
+
+
+COMPARED = [
+    (PASTURE, HUSKY, "Air temperature at the bank, again after 20 minutes, and if it rose 2 degrees or more "
+     "measure CO2.",
+     "air @ PointsIn(bank) = r2; wait 1200; air = r1; if mean(r1) >= mean(r2) + 2 degC: [co2]"),
+    (PASTURE, HUSKY, "Read CO2 at the bank and once more half an hour later. If it dropped by 50 ppm or more, "
+     "read the air "
+     "temperature.", "co2 @ PointsIn(bank) = r2; wait 1800; co2 = r1; if mean(r1) <= mean(r2) + -50 ppm: [air]"),
+    (PASTURE, HUSKY, "Start with an air temperature reading in the boggy corner. Then take eight more, evenly "
+     "spread over "
+     "the cow paddock, and compare their average with the one from the boggy corner.",
+     "air @ PointsIn(boggy corner); for PointsIn(cow paddock, 8): [air]"),
+    (PASTURE, HUSKY, "Read CO2 in the boggy corner and five more on the bank, and compare the bank with the "
+     "boggy corner.",
+     "co2 @ PointsIn(boggy corner); for PointsIn(bank, 5): [co2]"),
+    (PASTURE, HUSKY, "My supervisor believes that it is cooler at the water. Take five air temperature readings "
+     "around the "
+     "pond and five on the bank and tell me whether she is right.",
+     "for Transect(5, edge, pond): [air]; for PointsIn(bank, 5): [air]"),
+    (PASTURE, HUSKY, "Take three CO2 readings on the bank and three in the boggy corner and tell me whether the "
+     "bank is "
+     "higher.", "for PointsIn(bank, 3): [co2]; for PointsIn(boggy corner, 3): [co2]"),
+    (PASTURE, HUSKY, "Take three CO2 readings on the bank and three in the boggy corner and say how big the gap "
+     "between "
+     "them is.", "for PointsIn(bank, 3): [co2]; for PointsIn(boggy corner, 3): [co2]"),
+    (PASTURE, HUSKY, "I think it is colder in the boggy corner than on the bank. Take four air temperature readings in "
+     "each and tell me if I am right.", "for UnionOf(PointsIn(boggy corner, 4)+PointsIn(bank, 4)): [air]"),
+    (PASTURE, AMIGA, "My boss claims that the bank is wetter than the boggy corner. Take four moisture readings "
+     "in each.",
+     "for UnionOf(PointsIn(bank, 4)+PointsIn(boggy corner, 4)): [moisture]"),
+    (PASTURE, HUSKY, "Do the cows trample the grass? Compare six random CO2 readings on the bank with six from the cow "
+     "paddock.", "for PointsIn(bank, 6, True): [co2]; for PointsIn(cow paddock, 6, True): [co2]"),
+    (PASTURE, HUSKY, "Take six random CO2 readings in the long pasture that are at least 20 metres away from the pond.",
+     "for PointsIn(long pasture, 6, True): [co2] | avoid InZone(pond) 20 m"),
+    (GLASSHOUSE, AMIGA, "Take five evenly spread moisture readings in the mild bay and tell me how they differ between "
+     "the crops.", "for Spread(5, of InZone(mild bay)): [moisture]"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("site", "robot", "request_", "plan"), COMPARED, ids=name)
+def test_readings_are_compared(site: Site, robot: RobotProfile, request_: str, plan: str) -> None:
+    require_plan(site, robot, request_, plan)
+
+
+QUESTIONS = [
+    (PASTURE, AMIGA, "How wet is the soil on the bank? Take three moisture readings there.",
+     "for PointsIn(bank, 3): [moisture]"),
+    (PASTURE, AMIGA, "How moist is the bank? Take three readings there at 20 cm.",
+     "for PointsIn(bank, 3): [moisture(depth_cm 20)]"),
+    (PASTURE, AMIGA, "How wet is the soil on the bank? Take a moisture reading there.", "moisture @ PointsIn(bank)"),
+    (PASTURE, AMIGA, "How dry is it on the bank?", "moisture @ PointsIn(bank)"),
+    (GLASSHOUSE, AMIGA, "How moist is the soil under the melons, ten centimetres down?",
+     "for Where(crop, eq, melon): [moisture(depth_cm 10)]"),
+    (GLASSHOUSE, HUSKY, "How warm are the leaves of the melons?", "for Where(crop, eq, melon): [picture]"),
+    (GLASSHOUSE, AMIGA, "Probe all plants listed below 25 moisture at 15 cm and photograph any that read under "
+     "20 percent.",
+     "for Where(moisture, lt, 25): [moisture(depth_cm 15) = r1; if r1 < 20 percent: [picture]]"),
+    (PASTURE, TRACTOR, "Check the soil moisture at 10 cm in three places in the cow paddock first. Only if the "
+     "average is "
+     "under 30 percent may you mow it.",
+     "for PointsIn(cow paddock, 3): [moisture(depth_cm 10) = r1]; if mean(r1 < 30 percent): [mow area "
+     "InZone(cow paddock)]"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("site", "robot", "request_", "plan"), QUESTIONS, ids=name)
+def test_questions_are_answered_by_readings(site: Site, robot: RobotProfile, request_: str, plan: str) -> None:
+    require_plan(site, robot, request_, plan)
+
+
+@pytest.mark.parametrize(
+    ("site", "request_", "why"),
+    [
+        (GLASSHOUSE, "How moist is the soil under the melons, ten centimetres down?", "husky cannot read the "
+     "soil moisture"),
+        (PASTURE, "How wet is the soil on the bank? Take three moisture readings there.",
+         "husky cannot read the soil moisture"),
+        (PASTURE, "Take five CO2 readings on the bank and tell me whether the grass is dry.", "tell me whether"),
+        (PASTURE, "Compare six CO2 readings on the bank with six from the cow paddock that are at least 20 metres away "
+         "from the pond.", "a distance is kept in the whole mission"),
+        (PASTURE, "Take five CO2 readings on the bank and compare the bank with the cowslip patch.", "compare"),
+    ],
+    ids=name,
+)  # fmt: skip
+def test_what_readings_cannot_answer_is_refused(site: Site, request_: str, why: str) -> None:
+    require_refusal(site, HUSKY, request_, why)

@@ -472,6 +472,7 @@ class WayRule:
         used: Tokens of the phrase.
         slow: Places at which it drives slowly.
         leaves: True if the phrase says by which gate it leaves.
+        described: True if the phrase describes the last places only ("that are at least 20 m from the pond").
     """
 
     avoid: tuple[tuple[s.Selector, float], ...] = ()
@@ -480,6 +481,7 @@ class WayRule:
     used: int = 0
     slow: tuple[SlowPlace, ...] = ()
     leaves: bool = False
+    described: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,6 +12,7 @@ from typing import Literal, cast
 from fieldhand.places import selectors as s
 from fieldhand.places.series_statistics import Statistic as StatisticName
 from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.commands.adjuncts import drawn_likewise
 from fieldhand.planning.grammar.meaning import (
     CaptureCommand,
     Connective,
@@ -25,6 +26,7 @@ from fieldhand.planning.grammar.meaning import (
 from fieldhand.planning.grammar.meaning import Subject as Statistic
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -132,15 +134,18 @@ def who_differs(n: int = 0) -> str:
 
 @construction(
     "finding: whether [DET] claimant [IS] RIGHTWORD", "finding: whether THEREIS [DET] DIFFERENCE [BETWEENTHEM]",
+    "finding: whether who_differs DIFFERV", "finding: whether who_differs IS DET SAME",
     cost=0.2,
 )  # fmt: skip
 def whether_so() -> Finding:
-    """Compose "whether she is right" and "if that is true", of what was said before."""
-    return Finding(asks=True)
+    """Compose "whether she is right" and "if they differ" behind "tell me"; by itself "if" is a condition."""
+    return Finding()
 
 
 @construction("whether: WHETHER", "whether: IF", cost=0.0)
-@construction("claimant: PEOPLE", "claimant: IT", "claimant: CLAIMANT", "claimant: IMPERSONAL", cost=0.0)
+@construction(
+    "claimant: PEOPLE", "claimant: PAPERWORK", "claimant: IT", "claimant: CLAIMANT", "claimant: IMPERSONAL", cost=0.0
+)
 def whether() -> str:
     """Compose "whether", and who is right."""
     return "whether"
@@ -155,8 +160,8 @@ def whether() -> str:
     cost=0.2,
 )
 def whether_more(one: PlaceMeaning, other: PlaceMeaning | None = None) -> Finding:
-    """Compose "whether the slope is warmer" and "if it is cooler at the pond than on the slope"."""
-    return Finding(places=(one,) if other is None else (one, other), asks=True)
+    """Compose "whether the slope is warmer" and "if it is cooler at the pond" behind "tell me"."""
+    return Finding(places=(one,) if other is None else (one, other))
 
 
 @construction(
@@ -315,6 +320,27 @@ def measured_for(
         return CaptureCommand(things, place, used, relation=way)
     several = tuple(replace(one, plural=place.shape == "area") for one in things)
     return CaptureCommand(several, place, used, relation=way, of=cast(StatisticName, of.value))
+
+
+@construction("said: COMPARES first=capture WITH second=capture", cost=0.3, given=("site",))
+@construction("said: before=said joint=joint COMPARES first=capture WITH second=capture", cost=0.6, given=("site",))
+def compared_captures(
+    first: CaptureCommand,
+    second: CaptureCommand,
+    used: int,
+    site: Site,
+    before: Said | None = None,
+    joint: Connective | None = None,
+) -> Said | None:
+    """Compose "compare six random readings in the strip with six in the meadow", taken one after the other."""
+    if first.place is None or second.place is None or second.place.refers_back:
+        return None
+    own = used & ~first.used & ~second.used & ~(0 if joint is None else joint.used)
+    earlier = () if before is None else before.clauses
+    for clause in earlier:
+        own &= ~(clause.command.used | (0 if clause.before is None else clause.before.used))
+    with_it = Connective(False, False, own, both=True)
+    return Said((*earlier, LinkedCommand(joint, first), LinkedCommand(with_it, drawn_likewise(second, first, site))))
 
 
 @construction("them_all: THEMALL [WITHEACHOTHER]", cost=0.1)

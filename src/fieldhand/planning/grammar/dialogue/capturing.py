@@ -340,6 +340,8 @@ def meant_things(setting: Setting, state: DialogueState, things: tuple[Thing, ..
         return state.things
     if not any(thing.action == LAST_THING for thing in things):
         return things
+    if len(things) == 1 and not state.things and (read := _read_earlier_there(setting, state)):
+        return (replace(things[0], action=read),)
     if len(things) != 1 or len(state.things) != 1:
         raise NotComposed(message("it is not clear what another one is meant", context="fault"))
     if may_be_left_out(state):
@@ -354,6 +356,14 @@ def meant_things(setting: Setting, state: DialogueState, things: tuple[Thing, ..
         raise NotComposed(message("it is not clear what another one is meant", context="fault"))
     parameters = tuple((given | dict(things[0].parameters)).items())
     return (replace(things[0], action=last.action, parameters=parameters),)
+
+
+def _read_earlier_there(setting: Setting, state: DialogueState) -> str:
+    """Return the action whose readings of earlier missions choose the place ("where CO2 was highest ..., read it")."""
+    parts = () if state.where is None else state.where.selector.walk()
+    read = {getattr(part, "quantity", "") for part in parts if part.uses_records} - {""}
+    actions = [one.name for one in setting.robot.actions if read & {*one.measures}]
+    return actions[0] if len(read) == 1 and len(actions) == 1 else ""
 
 
 def _with_same_values(state: DialogueState, things: tuple[Thing, ...]) -> tuple[Thing, ...]:
