@@ -206,6 +206,18 @@ def _at_random(command: CaptureCommand, drawing: _Drawing) -> CaptureCommand | N
     return replace(command, place=replace(place, selector=selector))
 
 
+def _placed(command: CaptureCommand, _: None) -> CaptureCommand | None:
+    """Return a command that names its place."""
+    return None if command.place is None or command.place.refers_back else command
+
+
+@construction("part: n=count MORE", cost=1.5)
+def more_of_them_part(n: int) -> Clause:
+    """Compose "eight more" before where they are taken; "otherwise take two more" may be of either kind."""
+    thing = Thing(LAST_THING, count=n, plural=n > 1, more=True)
+    return Clause("t", things=(thing,), adjuncts=(Adjunct(_placed, late=True),))
+
+
 def drawn_likewise(command: CaptureCommand, other: CaptureCommand, site: Site) -> CaptureCommand:
     """Return captures at places drawn at random if those of another command are."""
     parts = () if other.place is None else other.place.selector.members

@@ -81,7 +81,7 @@ def readings_of(n: int, noun: Lex) -> Thing | None:
     "thing: n=count",
     "thing: n=count ONE",
     "thing: n=count READING",
-    "thing: n=count more=MORE [READING]",
+    "thing: n=count more=MORE READING",
     "thing: n=count more=MORE POINT",
     "thing: more=ANOTHER n=count [READING]",
     "thing: more=IT [THERE] n=more_times",
