@@ -57,13 +57,15 @@ _BESIDE_THEM = re.compile(
 _LEAVES_OUT = w.NEGATIONS | w.words_in(
     "apart aside bar barring but forget ignore leave leaving minus omit save skipping"
 )
-#: Pattern of a half that is named by a place near it, or by words that no map explains.
+#: Pattern of several sides or ends, or of one that a place names.
 _SOME_SIDES = re.compile(
     r"\b(?:both|either|each|every|all|two|four|one)\b[^.;!?]{0,20}\b(?:sides?|ends?|edges?|faces?)\b|\bside of\b"
 )
+#: Pattern of a half that is named by a place near it, or by words that no map explains, and of both ends.
 _SOME_HALF = re.compile(
     r"\bhalf (?:of (?:\w+ ){1,4})?(?:nearest|closest|next)\b"
     r"|\b(?:foot|head|lowest|highest|far|near|low) (?:end |side |part |point )?of\b"
+    r"|\b(?:both|each|either|two|opposite) ends?\b|\bends of\b"
 )
 #: Words that continue a series of numbers: "5, 15, 25 and so on".
 _SERIES = re.compile(r"\b(?:and so (?:on|forth)|etc|like that)\b|\bevery \S+ (?:after|until|up|to)\b")

@@ -14,6 +14,7 @@ from fieldhand.language.words import say_action
 from fieldhand.planning.english.inflection import forms_of, plural_of
 from fieldhand.planning.english.naming import Phrase, robot_entries, split
 from fieldhand.planning.english.tokens import Word
+from fieldhand.planning.english.vocabulary import questions
 from fieldhand.robot.builtin_profiles import AMIGA, HUSKY, TRACTOR
 from fieldhand.robot.loader import parse_profile
 from fieldhand.robot.model import Action, RobotProfile
@@ -93,6 +94,9 @@ def _known() -> Mapping[Phrase, Action]:
             quantities = [quantity for quantity in robot.quantities if quantity.name in action.measures]
             for phrase in (split(word) for quantity in quantities for word in (*quantity.words, quantity.name)):
                 found.setdefault(phrase, action)
+    for question, reading in questions().items():
+        if (asked := found.get(split(reading))) is not None:
+            found.setdefault(split(question), asked)
     return found
 
 

@@ -8,7 +8,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 from importlib.resources import files
-from itertools import product
 from typing import Any
 
 from fieldhand.compatibility import tomllib
@@ -17,7 +16,7 @@ from fieldhand.planning.english.lexicon import Lexicon, lexicon_for
 from fieldhand.planning.english.naming import NameEntry, Naming, Phrase, split, takes_pictures
 from fieldhand.planning.english.spelling import respelt
 from fieldhand.planning.english.tokens import Word, ranges_of, words_of
-from fieldhand.planning.english.vocabulary import vocabulary
+from fieldhand.planning.english.vocabulary import questions, vocabulary
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.earlier.edges import earlier_edges
 from fieldhand.planning.grammar.event_words import NO_EVENTS, EventPatterns, response_words, says_any_time
@@ -150,12 +149,7 @@ def features_of(phrase: Phrase) -> frozenset[str]:
 @cache
 def _asked_by_adjective() -> Mapping[Phrase, Phrase]:
     """Return the names of readings by the questions for them: "how warm is the air"."""
-    found: dict[Phrase, Phrase] = {}
-    for reading, asked in _own()["asked_by_adjective"].items():
-        for adjective, thing in product(asked["adjectives"], asked["of"]):
-            found[split(f"how {adjective} is {thing}")] = split(reading)
-            found[split(f"how {adjective} {thing} is")] = split(reading)
-    return found
+    return {split(question): split(reading) for question, reading in questions().items()}
 
 
 @cache

@@ -286,6 +286,7 @@ class CaptureCommand:
         instead: True if it is done in place of what another case has.
         every_s: Seconds from one time to the next, if it is done again and again ("every ten minutes").
         for_s: Seconds for which it is done again and again ("for an hour").
+        of: Statistic that is asked for, which "it" means behind it ("the average CO2 of"); empty for the readings.
     """
 
     things: tuple[Thing, ...]
@@ -298,6 +299,7 @@ class CaptureCommand:
     instead: bool = False
     every_s: float = 0.0
     for_s: float = 0.0
+    of: Statistic | Literal[""] = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -478,6 +480,7 @@ class WayRule:
         used: Tokens of the phrase.
         slow: Places at which it drives slowly.
         leaves: True if the phrase says by which gate it leaves.
+        described: True if the phrase describes the last places only ("that are at least 20 m from the pond").
     """
 
     avoid: tuple[tuple[s.Selector, float], ...] = ()
@@ -486,6 +489,7 @@ class WayRule:
     used: int = 0
     slow: tuple[SlowPlace, ...] = ()
     leaves: bool = False
+    described: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -646,9 +650,15 @@ class Total:
 
 @dataclass(frozen=True, slots=True)
 class Reported:
-    """A wish to be told what the report of the mission says anyway ("and tell me the average")."""
+    """A wish to be told what the report of the mission says anyway ("and tell me the average").
+
+    Attributes:
+        used: Tokens of the phrase.
+        of: The only statistic that it names; empty for other figures.
+    """
 
     used: int
+    of: Statistic | Literal[""] = ""
 
 
 @dataclass(frozen=True, slots=True)

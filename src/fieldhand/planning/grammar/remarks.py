@@ -30,6 +30,8 @@ _ASKING = frozenset(
 )  # fmt: skip
 #: Categories that ask for something even in a reason ("so we can check ..." gives a reason, "to photograph row 4" not).
 _ASKING_IN_REASON = _ASKING - {"MEASURE", "TAKE", "GO", "USE", "IF", "WHETHER", "LEVEL", "ACTV", "RETURN", "REPEAT"}
+#: Categories of the words of claims, which say nothing else of people and of what they say.
+_OF_CLAIMS = frozenset({"CLAIMANT", "CLAIMS", "RIGHTWORD"})
 #: Categories of words that may say what a study is about.
 _OF_STUDIES = frozenset({"DET", "GROUND", "NOUN", "OWNER", "PAPERWORK", "READING"})
 #: Categories of words that an aside may have beside unknown ones ("for the lab").
@@ -109,7 +111,7 @@ def without_remarks(
         if edge.category == "NOUN":
             for k in range(edge.start, edge.end):
                 captures[k].add(edge.meaning.value)
-        for k in range(edge.start, edge.end) if edge.category not in EARLIER else ():
+        for k in range(edge.start, edge.end) if edge.category not in EARLIER | _OF_CLAIMS else ():
             kinds[k].add(edge.category)  # "We had a leak last week" tells of something else
         if edge.category == "REASON":
             reasons.add(edge.start)

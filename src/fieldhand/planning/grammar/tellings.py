@@ -108,6 +108,8 @@ def telling(said: Sequence[int], known: WordKinds, *, sentence: bool) -> Telling
     kinds = [known.kinds[k] for k in begun]
     hopes = any("HOPES" in one for one in kinds[:2])
     asks = _is_question(begun, known)
+    if sentence and _gives_reason(begun, known):
+        return Telling(left_out=frozenset(said))
     if not (hopes or asks or _has_verb(begun, known, sentence=sentence)):
         return None
     if any(_may_ask(at, begun, known, hopes=hopes, asks=asks) for at in range(len(begun))):
@@ -209,6 +211,21 @@ def _is_question(begun: Sequence[int], known: WordKinds) -> bool:
     end = begun[-1] + 1
     asks = end < len(known.words) and "?" in known.words[end].text
     return asks and bool(known.kinds[begun[0]] & {"HOW", "IS"})
+
+
+def _gives_reason(begun: Sequence[int], known: WordKinds) -> bool:
+    """Return True for a question behind which the work stands that answers it ("Does the oak take water? Compare ...").
+
+    The work says by itself what is done and where, and no condition refers to the answer.
+    """
+    end = begun[-1] + 1
+    if end + 1 >= len(known.words) or "?" not in known.words[end].text or "ASKSDO" not in known.kinds[begun[0]]:
+        return False
+    if known.words[begun[1]].norm in ("you", "i", "we") or _refers_back(end + 1, known):
+        return False
+    behind = range(end + 1, len(known.words))
+    names = any(known.names_place(k) for k in behind) and any(known.captures.get(k) for k in behind)
+    return names and not any(known.kinds[k] & {"IFSO", "OTHERWISE"} for k in behind)
 
 
 def _may_ask(at: int, said: Sequence[int], known: WordKinds, *, hopes: bool, asks: bool) -> bool:

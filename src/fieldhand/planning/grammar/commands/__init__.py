@@ -22,6 +22,7 @@ from fieldhand.planning.grammar.commands import (
     energy,
     events,
     exclusions,
+    finished,
     further_work,
     going_round,
     headings,
@@ -52,7 +53,7 @@ from fieldhand.planning.grammar.commands import (
 GRAMMAR = Grammar()
 _THEMES = (
     things, parameters, spacing, clauses, adjuncts, captures, driving, conditions, limits, energy, events, requests,
-    exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, aisles, earlier,
+    finished, exclusions, ways, slow, sampling, waits, pace, sides, aggregates, working, aisles, earlier,
     work_wanted, laps, headings, edge_sides, row_parts, asked, left_standing, to_and_fro, work_sequel, at_edges,
     bringing, reported, further_work, counting, which_of_two, asked_places, precision,
     ending, going_round,

@@ -9,6 +9,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.english.naming import split
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Adjunct, Clause, once
+from fieldhand.planning.grammar.commands.things import named_capture
 from fieldhand.planning.grammar.meaning import LAST_THING, UNSAID_THING, CaptureCommand, Nominal, PlaceMeaning, Thing
 from fieldhand.planning.grammar.places.counted import row_of_all
 from fieldhand.planning.grammar.places.groups import EachKind, of_each_kind
@@ -161,6 +162,9 @@ def _evenly(command: CaptureCommand, drawing: _Drawing) -> CaptureCommand | None
         return None
     if (free := bare_points(place.selector, drawing.site, count)) is not None:
         return replace(command, things=once(command.things), place=PlaceMeaning(free, "several", count=count))
+    if as_zone(place.selector) is not None:
+        spread = PlaceMeaning(s.Spread(count=count, of=place.selector), "several", count=count)
+        return replace(command, things=once(command.things), place=spread)
     if not (are_rows(place.selector) and is_one_row(place.selector)):
         return None
     even = PlaceMeaning(s.Evenly(count=count, of=place.selector), "several", count=count)
@@ -201,6 +205,25 @@ def _at_random(command: CaptureCommand, drawing: _Drawing) -> CaptureCommand | N
         return None
     selector = drawn[0] if len(drawn) == 1 else s.UnionOf(parts=drawn)
     return replace(command, place=replace(place, selector=selector))
+
+
+def _placed(command: CaptureCommand, _: None) -> CaptureCommand | None:
+    """Return a command that names its place."""
+    return None if command.place is None or command.place.refers_back else command
+
+
+@construction("part: n=count MORE", cost=1.5)
+def more_of_them_part(n: int) -> Clause:
+    """Compose "eight more" before where they are taken; "otherwise take two more" may be of either kind."""
+    thing = Thing(LAST_THING, count=n, plural=n > 1, more=True)
+    return Clause("t", things=(thing,), adjuncts=(Adjunct(_placed, late=True),))
+
+
+def drawn_likewise(command: CaptureCommand, other: CaptureCommand, site: Site) -> CaptureCommand:
+    """Return captures at places drawn at random if those of another command are."""
+    parts = () if other.place is None else other.place.selector.members
+    drawn = all(isinstance(one, s.RandomSample) or (isinstance(one, s.PointsIn) and one.random) for one in parts)
+    return (_at_random(command, _Drawing(site)) or command) if parts and drawn else command
 
 
 def _as_many(command: CaptureCommand, _: None) -> CaptureCommand | None:
@@ -272,6 +295,19 @@ def _not_at_all(command: CaptureCommand, _: None) -> CaptureCommand | list[Captu
 def not_at_all() -> Adjunct:
     """Compose "not all of them" behind what is captured there."""
     return Adjunct(_not_at_all, is_sentence=True)
+
+
+@construction(
+    "part: n=count RANDOM noun=NOUN", "part: n=count RANDOM noun=NOUN READING",
+    "part: n=count RANDOM READING OF [DET] noun=NOUN", "part: n=count RANDOM ONE",
+    "part: n=count even=EVENLYSPACED noun=NOUN", "part: n=count even=EVENLYSPACED noun=NOUN READING",
+    cost=0.3, given=("site",),
+)  # fmt: skip
+def drawn_things_part(n: int, site: Site, noun: Lex | None = None, even: Lex | None = None) -> Clause | None:
+    """Compose "six random moisture readings" and "ten evenly spread readings", at as many places."""
+    thing = Thing(LAST_THING, count=n, plural=n > 1) if noun is None else named_capture(noun, count=n, plural=n > 1)
+    drawing = Adjunct(_at_random if even is None else _evenly, _Drawing(site))
+    return None if thing is None or n < 2 else Clause("t", things=(thing,), adjuncts=(drawing,))
 
 
 @construction("adjunct: ASMANY as_can", cost=0.2)

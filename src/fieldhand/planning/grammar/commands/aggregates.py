@@ -254,20 +254,29 @@ def side_of_place(place: PlaceMeaning, noun: Lex | None = None, word: Lex | None
 
 
 @construction(
-    "test: [DET] DIFFERENCE [OFTHEM] [IS] test=predicate", "test: DET DIFFERENCE BETWEENTHEM [IS] test=predicate",
-    "test: [IT] DIFFER BY more=CMP by=amount", "test: [IT] DIFFER BY [ATLEAST] by=amount",
-    "test: DET count [GROUPNOUN] DIFFER BY more=CMP by=amount",
-    "test: GROUPALL DIFFER BY more=CMP by=amount", "test: GROUPALL DIFFER BY [ATLEAST] by=amount",
-    "test: [IT] IS more=CMP by=amount APART", cost=0.1,
+    "by_how_much: [BY] [AT] by=amount", "by_how_much: [BY] more=CMP by=amount", "by_how_much: [BY] ATLEAST by=amount",
+    "by_how_much: [BY] by=amount bound=BOUND",
+    cost=0.0,
 )  # fmt: skip
-def they_differ(test: Test | None = None, more: Lex | None = None, by: Amount | None = None) -> Test | None:
+def by_how_much(by: Amount, more: Lex | None = None, bound: Lex | None = None) -> tuple[str, Amount] | None:
+    """Compose "(by) more than 2 degrees" and "2 degrees or more" behind "rose"; "by 2 degrees" is at least that."""
+    check = bound.value[0] if bound is not None and not bound.value[1] else None if bound is not None else _check(more)
+    return None if check is None else (check, by)
+
+
+@construction(
+    "test: [DET] DIFFERENCE [OFTHEM] [IS] test=predicate", "test: DET DIFFERENCE BETWEENTHEM [IS] test=predicate",
+    "test: [IT] DIFFER by=by_how_much", "test: DET count [GROUPNOUN] DIFFER by=by_how_much",
+    "test: GROUPALL DIFFER by=by_how_much", "test: [IT] IS by=by_how_much APART",
+    cost=0.1,
+)  # fmt: skip
+def they_differ(test: Test | None = None, by: tuple[str, Amount] | None = None) -> Test | None:
     """Compose "the difference is more than 5 degrees" and "they differ by more than 5 degrees", of two readings."""
     than = Subject(DIFFERENCE)
     if test is not None:
         plain = test.check in _COUNTS and not test.negated and test.value != SAME_THRESHOLD and not test.quantity
         return replace(test, of="mean", than=than) if plain and not test.attribute and not test.of else None
-    bound = "ge" if more is None else _check(more)
-    return None if by is None or bound is None else Test("", bound, by.number, by.unit, of="mean", than=than)
+    return None if by is None else Test("", cast(Any, by[0]), by[1].number, by[1].unit, of="mean", than=than)
 
 
 @construction(
@@ -280,15 +289,7 @@ def side_of_nth_reading(rank: Lex | None = None) -> Subject:
 
 
 @construction(
-    "test: [subject=measured] way=CHANGED more=CMP by=amount",
-    "test: [subject=measured] way=CHANGED [AT] by=amount",
-    "test: [subject=measured] way=CHANGED BY more=CMP by=amount",
-    "test: [subject=measured] way=CHANGED BY by=amount",
-    "test: [subject=measured] way=CHANGED BY ATLEAST by=amount",
-    "test: [subject=measured] way=CHANGED ATLEAST by=amount",
-    "test: [subject=measured] IS way=CHANGED BY more=CMP by=amount",
-    "test: [subject=measured] IS way=CHANGED more=CMP by=amount",
-    "test: [subject=measured] IS way=CHANGED BY [ATLEAST] by=amount",
+    "test: [subject=measured] [IS] way=CHANGED by=by_how_much",
     "test: [subject=measured] [IS] way=CHANGED",
     "test: one=test CHANGEDSINCE",
     cost=0.1,
@@ -296,8 +297,7 @@ def side_of_nth_reading(rank: Lex | None = None) -> Subject:
 def has_changed(
     way: Lex | None = None,
     subject: Subject | None = None,
-    more: Lex | None = None,
-    by: Amount | None = None,
+    by: tuple[str, Amount] | None = None,
     one: Test | None = None,
 ) -> Test | None:
     """Compose "it has gone up by more than 50 ppm", of the last reading and the one before it."""
@@ -305,14 +305,13 @@ def has_changed(
         return one if one.than is not None and one.than.quantity == _BEFORE else None
     if way is None or (subject is not None and (subject.place is not None or subject.of or subject.setting)):
         return None
-    bound = "ge" if more is None else _check(more)
+    bound, amount = ("gt", None) if by is None else by
     if bound not in ("gt", "ge"):
         return None
-    risen = "rises" in way.features
-    number = 0.0 if by is None else by.number
-    check: Any = ("gt" if by is None else bound) if risen else {"gt": "lt", "ge": "le"}["gt" if by is None else bound]
-    than = Subject(_BEFORE)
-    return Test(_LAST, check, number if risen else -number, "" if by is None else by.unit, of="mean", than=than)
+    risen, number = "rises" in way.features, 0.0 if amount is None else amount.number
+    check: Any = bound if risen else {"gt": "lt", "ge": "le"}[bound]
+    than, unit = Subject(_BEFORE), "" if amount is None else amount.unit
+    return Test(_LAST, check, number if risen else -number, unit, of="mean", than=than)
 
 
 @construction(

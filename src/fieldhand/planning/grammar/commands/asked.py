@@ -44,12 +44,14 @@ class Spots:
         how: Parameter of the captures.
         each: True if there are as many in each of several areas.
         random: True if they are drawn at random.
+        action: What is read there, if the phrase names it.
     """
 
     count: int
     how: ParameterValue | None = None
     each: bool = False
     random: bool = False
+    action: str = ""
 
 
 # Questions.
@@ -87,6 +89,14 @@ def how_wet_is(noun: Lex, where: tuple[s.Selector, ...]) -> AskedArea | None:
     """Compose "how wet is the meadow on average"."""
     naming: Naming = noun.value
     return AskedArea((Thing(naming.actions[0]),), where) if naming.actions else None
+
+
+@construction("capture: noun=ASKHOW IS IT way=relation place=place", "capture: noun=ASKHOW IS place=place", cost=0.6)
+def how_wet_is_it(noun: Lex, place: PlaceMeaning, used: int, way: str = "at") -> CaptureCommand | None:
+    """Compose "how dry is it on the slope?", of a reading there."""
+    naming: Naming = noun.value
+    known = place.shape in ("one", "several", "area") and not place.refers_back
+    return CaptureCommand((Thing(naming.actions[0]),), place, used, relation=way) if known and naming.actions else None
 
 
 @construction("in_or_over: in_", "in_or_over: OVER", cost=0.0)
@@ -158,9 +168,11 @@ def so_many_random_spots(n: int) -> Spots | None:
 
 @construction("spots: [TAKE] things=things", cost=0.3)
 def so_many_readings(things: tuple[Thing, ...]) -> Spots | None:
-    """Compose "twelve readings"."""
-    known = len(things) == 1 and things[0].action in (LAST_THING, UNSAID_THING) and not things[0].parameters
-    return Spots(things[0].count) if known and things[0].count is not None and things[0].count > 1 else None
+    """Compose "twelve readings" and "three moisture readings"."""
+    known = len(things) == 1 and not things[0].parameters and not things[0].more
+    action = things[0].action if known and things[0].action not in (LAST_THING, UNSAID_THING) else ""
+    count = things[0].count or (0 if things[0].plural else 1)
+    return Spots(count, action=action) if known and (count > 1 or (count == 1 and action)) else None
 
 
 @construction("spots: one=spots INEACH", "spots: one=spots [AT] PER ROW", "spots: INEACH [COMMA] one=spots", cost=0.1)
@@ -172,7 +184,7 @@ def spots_in_each(one: Spots) -> Spots | None:
 @construction(
     "spots: one=spots [COMMA] EVENLYSPACED", "spots: one=spots [COMMA] SPREADOUT",
     "spots: one=spots [COMMA] SPREADHERE",
-    "spots: one=spots [COMMA] how=parameter", "spots: one=spots [COMMA] [AND] REMAINS",
+    "spots: one=spots THERE", "spots: one=spots [COMMA] how=parameter", "spots: one=spots [COMMA] [AND] REMAINS",
     "spots: one=spots [COMMA] SHOULDDO", "spots: one=spots [COMMA] ONAVERAGE",
     cost=0.1,
 )  # fmt: skip
@@ -192,6 +204,8 @@ def spots_tell(
 ) -> list[CaptureCommand] | None:
     """Compose "how wet is the meadow on average? Twelve spots spread out evenly should tell us."."""
     things = asked.things
+    if spots.action and [one.action for one in things] != [spots.action]:
+        return None
     if spots.how is not None:
         made = tuple(with_parameter(one, spots.how, robot) for one in things)
         things = tuple(one for one in made if one is not None)
@@ -215,7 +229,7 @@ def _readings(areas: tuple[s.Selector, ...], spots: Spots, site: Site) -> PlaceM
         return None
     number = None if any(are_several_rows(one) for one in areas) else spots.count * len(kept)
     selector = kept[0] if len(kept) == 1 else s.UnionOf(parts=kept)
-    return PlaceMeaning(selector, "several", count=number, each=number is None)
+    return PlaceMeaning(selector, "one" if number == 1 else "several", count=number, each=number is None)
 
 
 @construction(

@@ -219,13 +219,6 @@ def measure_by(place: PlaceMeaning, act: CaptureCommand, used: int) -> CaptureCo
     return replace(act, place=place, used=used, relation="at") if act.place is None and act.spacing is None else None
 
 
-@construction("capture: AGAIN word=relation place=place", cost=0.6)
-def once_more_at(word: str, place: PlaceMeaning, used: int) -> CaptureCommand | None:
-    """Compose "once more at tree 9" and "again in the herb patch" behind what is taken."""
-    known = place.shape == "one" or (place.shape == "area" and bool(place.selector.whole_zone))
-    return CaptureCommand((Thing(LAST_THING, count=1),), place, used, relation=word) if known else None
-
-
 @construction("capture: MEASURE IT AGAIN", "capture: TAKE IT AGAIN", "capture: MEASURE IT AGAIN place=here", cost=0.4)
 def measure_it_again(used: int, place: PlaceMeaning | None = None) -> CaptureCommand:
     """Compose "(wait 10 minutes and) read it again"."""

@@ -320,7 +320,7 @@ def next_part(clause: Clause, part: Clause, robot: RobotProfile) -> Clause | Non
         things=clause.things or part.things,
         place=clause.place or part.place,
         relation=part.relation if part.place is not None else clause.relation,
-        adjuncts=clause.adjuncts,
+        adjuncts=(*clause.adjuncts, *part.adjuncts),
     )
 
 

@@ -488,8 +488,9 @@ def stay(used: int) -> StopCommand:
 
 
 @construction("again: REPEAT", "again: REPEAT relation place=place", cost=0.2)
+@construction("again: AGAIN relation place=place", "again: relation place=place AGAIN", cost=0.6)
 def again(used: int, place: PlaceMeaning | None = None) -> Again:
-    """Compose "do the same at tree 9"."""
+    """Compose "do the same at tree 9" and "(and) again at tree 9"."""
     return Again(place, used)
 
 
@@ -575,7 +576,7 @@ def the_same_way(place: PlaceMeaning, used: int) -> Again:
 @construction("again: word=TAKE place=place", cost=1.5)
 def do_there(word: Lex, place: PlaceMeaning, used: int) -> Again | None:
     """Compose "do tree 9 (as well)", where the same is done."""
-    return Again(place, used) if "performs" in word.features and place.shape in ("one", "several") else None
+    return Again(place, used) if "performs" in word.features and place.shape in ("one", "several", "area") else None
 
 
 @construction("again: REPEAT where=rows", cost=0.2)

@@ -6,13 +6,17 @@ behind the captures asks for nothing more, if it is about these captures.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Literal, cast
 
 from fieldhand.places import selectors as s
+from fieldhand.places.series_statistics import Statistic as StatisticName
 from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.commands.adjuncts import drawn_likewise
 from fieldhand.planning.grammar.meaning import (
     CaptureCommand,
     Connective,
+    InTurn,
     LinkedCommand,
     PlaceMeaning,
     Reported,
@@ -22,6 +26,7 @@ from fieldhand.planning.grammar.meaning import (
 from fieldhand.planning.grammar.meaning import Subject as Statistic
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.robot.model import RobotProfile
+from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -36,12 +41,14 @@ class Finding:
         places: Places that it names.
         asks: True for a clause that asks ("which is higher").
         extreme: True for the place with the highest or lowest reading ("the driest one").
+        of: The only statistic that the phrase names, which "it" may mean behind it.
     """
 
     quantities: tuple[str, ...] = ()
     places: tuple[PlaceMeaning, ...] = ()
     asks: bool = False
     extreme: bool = False
+    of: StatisticName | Literal[""] = ""
 
 
 @construction("finding: one=statistic", cost=0.1)
@@ -49,7 +56,7 @@ def statistic(one: Statistic) -> Finding:
     """Compose "the average" and "the mean CO2 of the slope"."""
     quantities = (one.quantity,) if one.quantity else ()
     extreme = one.of in ("minimum", "maximum") and not quantities
-    return Finding(quantities, () if one.place is None else (one.place,), extreme=extreme)
+    return Finding(quantities, () if one.place is None else (one.place,), extreme=extreme, of=one.of)
 
 
 @construction("finding: [DET] STATISTIC READING", cost=0.2)
@@ -92,7 +99,12 @@ def readings_said(word: Lex | None = None, noun: Lex | None = None, n: int = 0) 
     "finding: WHICHONE [of_the_two] IS [BYFAR] [DET] MOSTREAD [ONE]",
     "finding: WHICHONE [of_the_two] IS one=statistic",
     "finding: DIFFERS",
-    "finding: DIFFERS IS",
+    "finding: HOWAPART who_differs [IS]",
+    "finding: HOWAPART IS who_differs",
+    "finding: HOWDIFFER who_differs DIFFERV",
+    "finding: HOWBIG [DET] DIFFERENCE [BETWEENTHEM] [IS]",
+    "finding: HOWBIG IS [DET] DIFFERENCE [BETWEENTHEM]",
+    "finding: [DET] DIFFERENCE BETWEENTHEM",
     "finding: WHERE IT IS STATISTIC",
     "finding: WHERE IT IS MOSTREAD",
     "finding: WHERE [DET] noun=NOUN IS STATISTIC",
@@ -107,6 +119,49 @@ def which_is_more(one: Statistic | None = None, noun: Lex | None = None) -> Find
             return None
         found = Finding((noun.value.quantities[0],))
     return Finding(found.quantities, found.places, asks=True)
+
+
+@construction(
+    "who_differs: IT", "who_differs: them_all", "who_differs: readings_said", "who_differs: DET [n=count] FIGURES",
+    "who_differs: DET [n=count] PARTWORD", "who_differs: DET [n=count] GROUPNOUN",
+    cost=0.1,
+)  # fmt: skip
+def who_differs(n: int = 0) -> str:
+    """Compose "they", "the two values" and "the crops" of "how they differ"."""
+    del n
+    return "they"
+
+
+@construction(
+    "finding: whether [DET] claimant [IS] RIGHTWORD", "finding: whether THEREIS [DET] DIFFERENCE [BETWEENTHEM]",
+    "finding: whether who_differs DIFFERV", "finding: whether who_differs IS DET SAME",
+    cost=0.2,
+)  # fmt: skip
+def whether_so() -> Finding:
+    """Compose "whether she is right" and "if they differ" behind "tell me"; by itself "if" is a condition."""
+    return Finding()
+
+
+@construction("whether: WHETHER", "whether: IF", cost=0.0)
+@construction(
+    "claimant: PEOPLE", "claimant: PAPERWORK", "claimant: IT", "claimant: CLAIMANT", "claimant: IMPERSONAL", cost=0.0
+)
+def whether() -> str:
+    """Compose "whether", and who is right."""
+    return "whether"
+
+
+@construction(
+    "finding: whether one=place IS BARECMP",
+    "finding: whether one=place IS BARECMP THAN other=place",
+    "finding: whether one=place IS CMP other=place",
+    "finding: whether IT IS BARECMP relation one=place",
+    "finding: whether IT IS BARECMP relation one=place THAN [relation] other=place",
+    cost=0.2,
+)
+def whether_more(one: PlaceMeaning, other: PlaceMeaning | None = None) -> Finding:
+    """Compose "whether the slope is warmer" and "if it is cooler at the pond" behind "tell me"."""
+    return Finding(places=(one,) if other is None else (one, other))
 
 
 @construction(
@@ -154,6 +209,7 @@ def of_them(n: int = 0, noun: Lex | None = None) -> str:
     "finding: one=finding OF DET READING",
     "finding: one=finding ONAVERAGE",
     "finding: one=finding PER PARTWORD",
+    "finding: one=finding BETWEEN [DET] [n=count] PARTWORD",
     "finding: one=finding PER TREE",
     "finding: one=finding PER ROW",
     "finding: one=finding INEACHCASE",
@@ -209,6 +265,29 @@ def report_wish(figure: Finding) -> Finding:
     return figure
 
 
+@construction("one_side: one=finding", "one_side: one=readings_said", "one_side: one=them_all", cost=0.0)
+@construction("one_side: DET ONE relation place=place", "one_side: DET READING relation place=place", cost=0.1)
+@construction("one_side: DET ORD [ONE]", "one_side: DET ORD READING", "one_side: DET OTHERS", "one_side: IT", cost=0.2)
+@construction("one_side: place=place", "one_side: OTHERS", "one_side: DET [n=count] PARTWORD", cost=0.3)
+def one_side(one: Finding | None = None, place: PlaceMeaning | None = None, n: int = 0) -> Finding | None:
+    """Compose "their average", "the one from the mast" and "the slope" as one side of a comparison."""
+    del n
+    if place is not None and place.refers_back:
+        return None
+    return one or Finding(places=() if place is None else (place,))
+
+
+@construction(
+    "report_wish: COMPARES first=one_side WITH second=one_side",
+    "report_wish: COMPARES first=one_side AND second=one_side",
+    "report_wish: COMPARES first=one_side AT second=one_side",
+    cost=0.3,
+)
+def compared_with(first: Finding, second: Finding) -> Finding:
+    """Compose "compare their average with the one from the mast"."""
+    return both(first, second)
+
+
 @construction("report_wish: TELLME figure=readings_said TOGETHERWITH more=finding", cost=0.1)
 @construction("report_wish: TELLME figure=readings_said [COMMA] AND more=finding", cost=0.1)
 def readings_and_more(figure: Finding, more: Finding) -> Finding:
@@ -217,14 +296,51 @@ def readings_and_more(figure: Finding, more: Finding) -> Finding:
 
 
 @construction(
-    "capture: TELLME DET STATISTIC [OF] [DET] things=things way=relation place=place",
-    "capture: WHATIS DET STATISTIC [OF] [DET] things=things way=relation place=place",
-    "capture: COMPARES [DET] [STATISTIC] [OF] [DET] things=things way=relation place=place",
+    "wants_figure: TELLME", "wants_figure: WHATIS", "wants_figure: GETFIGURE", "wants_figure: ASKMEAN",
+    "wants_figure: MEASURE", "wants_figure: TAKE",
+    cost=0.0,
+)  # fmt: skip
+def wants_figure() -> str:
+    """Compose "get" and "work out" before a statistic of readings."""
+    return "get"
+
+
+@construction(
+    "capture: wants_figure DET of=STATISTIC [OF] [DET] things=things way=relation place=place",
+    "capture: COMPARES [DET] [of=STATISTIC] [OF] [DET] things=things way=relation place=place",
     cost=0.4,
 )
-def measured_for(things: tuple[Thing, ...], way: str, place: PlaceMeaning, used: int) -> CaptureCommand | None:
-    """Compose "report the mean of CO2 at four spots on the slope" and "compare CO2 on the slope and on the bank"."""
-    return CaptureCommand(things, place, used, relation=way) if place.shape in ("one", "several", "area") else None
+def measured_for(
+    things: tuple[Thing, ...], way: str, place: PlaceMeaning, used: int, of: Lex | None = None
+) -> CaptureCommand | None:
+    """Compose "get the mean CO2 of four spots on the slope" and "compare CO2 on the slope and on the bank"."""
+    if place.shape not in ("one", "several", "area") or (of is not None and things[0].count is not None):
+        return None
+    if of is None or place.shape == "one":
+        return CaptureCommand(things, place, used, relation=way)
+    several = tuple(replace(one, plural=place.shape == "area") for one in things)
+    return CaptureCommand(several, place, used, relation=way, of=cast(StatisticName, of.value))
+
+
+@construction("said: COMPARES first=capture WITH second=capture", cost=0.3, given=("site",))
+@construction("said: before=said joint=joint COMPARES first=capture WITH second=capture", cost=0.6, given=("site",))
+def compared_captures(
+    first: CaptureCommand,
+    second: CaptureCommand,
+    used: int,
+    site: Site,
+    before: Said | None = None,
+    joint: Connective | None = None,
+) -> Said | None:
+    """Compose "compare six random readings in the strip with six in the meadow", taken one after the other."""
+    if first.place is None or second.place is None or second.place.refers_back:
+        return None
+    own = used & ~first.used & ~second.used & ~(0 if joint is None else joint.used)
+    earlier = () if before is None else before.clauses
+    for clause in earlier:
+        own &= ~(clause.command.used | (0 if clause.before is None else clause.before.used))
+    with_it = Connective(False, False, own, both=True)
+    return Said((*earlier, LinkedCommand(joint, first), LinkedCommand(with_it, drawn_likewise(second, first, site))))
 
 
 @construction("them_all: THEMALL [WITHEACHOTHER]", cost=0.1)
@@ -261,11 +377,12 @@ def reported(
     before: Said, figure: Finding, used: int, robot: RobotProfile, joint: Connective | None = None
 ) -> Said | None:
     """Compose "read CO2 at trees 4 and 9 and tell me the average", of what is read there."""
-    done = [one.command for one in before.clauses if isinstance(one.command, CaptureCommand)]
+    said = [one.command.command if isinstance(one.command, InTurn) else one.command for one in before.clauses]
+    done = [one for one in said if isinstance(one, CaptureCommand)]
     if not done or not (joint is None or joint.full or joint.both or joint.bare or joint.then):
         return None
     read = {name for one in done for thing in one.things for name in _measured(thing.action, robot)}
-    known = {zone for one in before.clauses for zone in _places(getattr(one.command, "place", None))}
+    known = {zone for one in said for zone in _places(getattr(one, "place", None))}
     if not read or not {*figure.quantities} <= read or not all(_places(one) <= known for one in figure.places):
         return None
     own = used
@@ -273,7 +390,7 @@ def reported(
         own &= ~(clause.command.used | (0 if clause.before is None else clause.before.used))
     if joint is not None:
         own &= ~joint.used
-    return Said((*before.clauses, LinkedCommand(joint, Reported(own))))
+    return Said((*before.clauses, LinkedCommand(joint, Reported(own, figure.of))))
 
 
 def _measured(action: str, robot: RobotProfile) -> frozenset[str]:

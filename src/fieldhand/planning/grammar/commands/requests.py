@@ -348,36 +348,6 @@ def meanwhile(used: int) -> Connective:
     return Connective(False, False, used, both=True)
 
 
-@construction("then: done_first", cost=0.0)
-def when_that_is_done() -> str:
-    """Compose "once that's done", before what follows."""
-    return "then"
-
-
-@construction(
-    "done_first: WHERE [MISSION] [IS] DONE",
-    "done_first: ASSOONAS [MISSION] [IS] DONE",
-    "done_first: WHERE CONTRACTED DONE",
-    "done_first: ASSOONAS CONTRACTED DONE",
-    cost=0.1,
-)
-def done_first() -> str:
-    """Compose "once that's done"."""
-    return "done"
-
-
-@construction("home: way=home [COMMA] done_first", cost=0.3)
-def home_when_that_is_done(way: Home, used: int) -> Home:
-    """Compose "come back when you've been round"."""
-    return replace(way, used=used, when_done=True)
-
-
-@construction("drive: way=drive [COMMA] done_first", cost=0.2)
-def drive_when_done(way: DriveCommand, used: int) -> DriveCommand:
-    """Compose "go to the charger when you're finished"."""
-    return replace(way, used=used)
-
-
 @construction(
     "then: [DET] ORD LABEL IS [INORDERTO]",
     "then: [DET] NEXTONE LABEL IS [INORDERTO]",

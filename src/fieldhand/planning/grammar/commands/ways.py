@@ -76,14 +76,19 @@ def around(place: PlaceMeaning, used: int) -> WayRule | None:
     "way_rule: NONEWITHIN far=amount OF place=place",
     "way_rule: NONEWITHIN far=amount FROM place=place",
     "way_rule: NONEWITHIN far=amount AT place=place",
-    "way_rule: ATLEAST far=amount FROM place=place",
-    "way_rule: ATLEAST far=amount CLEAROF place=place",
+    "way_rule: [described=which_is] ATLEAST far=amount FROM place=place",
+    "way_rule: [described=which_is] ATLEAST far=amount CLEAROF place=place",
     "way_rule: WITHOUT COMES closer=CLOSER far=amount AT place=place",
     "way_rule: WITHOUT COMES closer=CLOSER far=amount FROM place=place",
     cost=0.2,
 )
 def keep_distance(
-    far: Amount, place: PlaceMeaning, used: int, check: Lex | None = None, closer: Lex | None = None
+    far: Amount,
+    place: PlaceMeaning,
+    used: int,
+    check: Lex | None = None,
+    closer: Lex | None = None,
+    described: str = "",
 ) -> WayRule | None:
     """Compose "keep 5 m from the pond" and "do not come within 5 m of the pond"."""
     if far.unit != "metres" or (check is not None and check.value[0] not in ("gt", "ge")):
@@ -91,7 +96,8 @@ def keep_distance(
     if closer is not None and closer.value is not None and closer.value[0] not in ("lt", "le"):
         return None
     places = kept_from(place, far.number)
-    return None if places is None else WayRule(tuple((one, far.number) for one in places), used=used)
+    kept = tuple((one, far.number) for one in places or ())
+    return WayRule(kept, used=used, described=bool(described)) if kept else None
 
 
 @construction("of_grass: OF GRASSWORD", cost=0.0)

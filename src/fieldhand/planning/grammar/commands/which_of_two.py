@@ -53,8 +53,9 @@ _Compared = tuple[tuple[Thing, ...], tuple[PlaceMeaning, PlaceMeaning]]
 
 @construction("asks_whether: ASKMEAN WHETHER", "asks_whether: ASKMEAN IF", "asks_whether: MEASURE WHETHER", cost=0.0)
 @construction("asks_whether: MEASURE IF", "asks_whether: TELLME WHETHER", "asks_whether: TELLME IF", cost=0.0)
+@construction("asks_whether: [DET] claimant CLAIMS [QUESTION]", cost=0.1)
 def asks_whether() -> str:
-    """Compose "find out whether"."""
+    """Compose "find out whether" and "my neighbour says that", which readings in each place tell."""
     return "whether"
 
 
@@ -80,6 +81,7 @@ def compared_quantity(
     "comparing: [asks_whether] THEREIS what=more_of in_ first=place THAN [in_] second=place",
     "comparing: IS IT what=more_of below_it first=place THAN [below_it] second=place",
     "comparing: asks_whether IT IS what=more_of below_it first=place THAN [below_it] second=place",
+    "comparing: asks_whether CONTRACTED what=more_of below_it first=place THAN [below_it] second=place",
     "comparing: IS what=more_of below_it first=place THAN [below_it] second=place",
     "comparing: IS first=place [HOLDS] what=more_of THAN [in_] second=place",
     "comparing: ASKSDO first=place HOLDS what=more_of THAN [in_] second=place",

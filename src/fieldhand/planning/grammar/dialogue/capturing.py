@@ -40,7 +40,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
     node_at,
     with_node,
 )
-from fieldhand.planning.grammar.dialogue.repeating import done_more_times, process_again, repeated_in
+from fieldhand.planning.grammar.dialogue.repeating import done_more_times, moved_to, process_again, repeated_in
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
@@ -340,6 +340,8 @@ def meant_things(setting: Setting, state: DialogueState, things: tuple[Thing, ..
         return state.things
     if not any(thing.action == LAST_THING for thing in things):
         return things
+    if len(things) == 1 and not state.things and (read := _read_earlier_there(setting, state)):
+        return (replace(things[0], action=read),)
     if len(things) != 1 or len(state.things) != 1:
         raise NotComposed(message("it is not clear what another one is meant", context="fault"))
     if may_be_left_out(state):
@@ -354,6 +356,14 @@ def meant_things(setting: Setting, state: DialogueState, things: tuple[Thing, ..
         raise NotComposed(message("it is not clear what another one is meant", context="fault"))
     parameters = tuple((given | dict(things[0].parameters)).items())
     return (replace(things[0], action=last.action, parameters=parameters),)
+
+
+def _read_earlier_there(setting: Setting, state: DialogueState) -> str:
+    """Return the action whose readings of earlier missions choose the place ("where CO2 was highest ..., read it")."""
+    parts = () if state.where is None else state.where.selector.walk()
+    read = {getattr(part, "quantity", "") for part in parts if part.uses_records} - {""}
+    actions = [one.name for one in setting.robot.actions if read & {*one.measures}]
+    return actions[0] if len(read) == 1 and len(actions) == 1 else ""
 
 
 def _with_same_values(state: DialogueState, things: tuple[Thing, ...]) -> tuple[Thing, ...]:
@@ -655,17 +665,12 @@ def capture_again(setting: Setting, state: DialogueState, command: Again) -> Dia
     if command.times:
         return done_more_times(setting, capture_elided(setting, state), command)
     place, steps = command.place, _steps_before(state)
+    of_several = place is not None and place.shape in ("several", "area") and place.per is None
+    if place is not None and of_several and not steps and state.open and state.scope:
+        there = _moved_from(state.tested_at[0], place)
+        return capture(setting, state, CaptureCommand((Thing(LAST_THING, plural=True),), there, command.used))
     if place is not None and place.shape == "area" and place.per is None:
         return repeated_in(setting, state, place.selector, command.used)
-    if (
-        place is not None
-        and place.shape == "several"
-        and not steps
-        and state.open
-        and state.scope
-        and place.per is None
-    ):
-        return capture(setting, state, CaptureCommand((Thing(LAST_THING),), place, command.used))
     if place is None or not steps or steps[-1].is_choice:
         return process_again(setting, state, command)
     if place.per is not None or steps[-1].is_optional_step or steps[-1].caught:
@@ -685,6 +690,16 @@ def capture_again(setting: Setting, state: DialogueState, command: Again) -> Dia
     for act in captures:
         state = with_capture(state, act, inside)
     return done_at(state, place)
+
+
+def _moved_from(tested: PlaceMeaning | None, place: PlaceMeaning) -> PlaceMeaning:
+    """Return the places of another area that are chosen like those of the readings that the last condition tests."""
+    if tested is None or tested.shape not in ("one", "several") or place.each or place.count is not None:
+        return place
+    there = moved_to(tested.selector, place.selector)
+    if there == place.selector and (place.shape == "several" or tested.shape == "one"):
+        return place
+    return replace(tested, selector=there, each=tested.shape == "several", tokens=place.tokens)
 
 
 def _steps_before(state: DialogueState) -> tuple[p.Node, ...]:

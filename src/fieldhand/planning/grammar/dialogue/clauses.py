@@ -339,7 +339,7 @@ def _read(
                 command = replace(command, relation="at")  # "a second reading whenever the first is below 400 ppm"
             if command.relation == "bare" and (not state.open or (again and state.choice is None)):
                 raise NotComposed(message("it does not say what to do with it", context="fault"))
-            return capture(setting, state, command)
+            return replace(capture(setting, state, command), asked_for=command.of)
         case DriveCommand():
             if command.picks and not any(isinstance(one.command, CaptureCommand | CaptureWhere) for one in following):
                 raise NotComposed(message("it does not say what to do with them", context="fault"))

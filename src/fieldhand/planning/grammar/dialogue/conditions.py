@@ -61,7 +61,7 @@ from fieldhand.planning.grammar.meaning import (
     When,
 )
 from fieldhand.planning.grammar.words import hinted_attributes
-from fieldhand.planning.selections import as_some
+from fieldhand.planning.selections import are_several_rows, as_some
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
@@ -76,6 +76,27 @@ _OPPOSITES: Mapping[Check, tuple[Check, ...]] = {
 }
 #: A threshold is of the size of a quantity if it is less than so many times as high or low as the quantity's levels.
 _SIZES = 4
+
+
+def _of_what_was_asked_for(state: DialogueState, tests: AllTests) -> AllTests:
+    """Return tests of "it" as those of the statistic that was asked for ("get the average ..., and if that is ...").
+
+    Raises:
+        NotComposed: There is one of each row.
+    """
+    if not state.asked_for or tests.of_last or not any(_is_plain(one) for one in tests.tests):
+        return tests
+    if state.where is not None and are_several_rows(state.where.selector):
+        raise NotComposed(message("it is not clear which of them", context="fault"))
+    return replace(
+        tests, tests=tuple(replace(one, of=state.asked_for) if _is_plain(one) else one for one in tests.tests)
+    )
+
+
+def _is_plain(test: Test) -> bool:
+    """Return True for a test of one reading that says no more of it than its quantity."""
+    named = test.attribute or test.of or test.setting or test.place is not None or test.than is not None
+    return not named and (test.quantity == "" or test.quantity.isidentifier())
 
 
 def when(setting: Setting, state: DialogueState, command: When, following: Sequence[LinkedCommand]) -> DialogueState:
@@ -96,6 +117,7 @@ def when(setting: Setting, state: DialogueState, command: When, following: Seque
     if command.terse and (decides_last or not following):
         raise NotComposed(message("it does not say what depends on it", context="fault"))
     command = replace(command, tests=_of_last_threshold(state, _of_quantity(setting, command.tests)))
+    command = replace(command, tests=_of_what_was_asked_for(state, command.tests))
     latest = any(test.quantity == LATEST_READING for test in command.tests.tests)
     plain = (replace(test, quantity=test.quantity.replace(LATEST_READING, "")) for test in command.tests.tests)
     command = replace(command, tests=replace(command.tests, tests=tuple(plain)))

@@ -14,13 +14,14 @@ from fieldhand.task import plan as p
 
 def ground_of(step: p.Node) -> str | None:
     """Return the zone in which all places of a step are points of ground; None if there are others, or none."""
-    found = {
-        one.zone if isinstance(one, s.PointsIn | s.Transect | s.Grid) else ""
-        for node in p.walk(step)
-        if node.selector is not None
-        for one in node.selector.members
-    }
+    found = {zone_of_points(node.selector) for node in p.walk(step) if node.selector is not None}
     return (found.pop() or None) if len(found) == 1 else None
+
+
+def zone_of_points(places: s.Selector) -> str:
+    """Return the zone of which places are points of ground; empty if there are others, or of several zones."""
+    found = {one.zone if isinstance(one, s.PointsIn | s.Transect | s.Grid) else "" for one in places.members}
+    return found.pop() if len(found) == 1 else ""
 
 
 def on_ground(step: p.Node, zone: str) -> p.Node:
@@ -31,15 +32,16 @@ def on_ground(step: p.Node, zone: str) -> p.Node:
         zone: Name of the zone.
     """
     if step.act is not None:
-        return step.act if step.act.at is None else replace(step.act, at=_in_zone(step.act.at, zone))
+        return step.act if step.act.at is None else replace(step.act, at=in_zone(step.act.at, zone))
     if step.selector is not None:
-        step = with_selector(step, _in_zone(step.selector, zone))
+        step = with_selector(step, in_zone(step.selector, zone))
     return step.with_children([on_ground(child, zone) for child in step.children])
 
 
-def _in_zone(points: s.Selector, zone: str) -> s.Selector:
-    if len(points.members) > 1:
-        return s.UnionOf(parts=tuple(_in_zone(part, zone) for part in points.members))
+def in_zone(points: s.Selector, zone: str) -> s.Selector:
+    """Return points of ground as those of another zone."""
+    if isinstance(points, s.UnionOf):
+        return replace(points, parts=tuple(in_zone(one, zone) for one in points.parts))
     return replace(points, zone=zone) if isinstance(points, s.PointsIn | s.Transect | s.Grid) else points
 
 

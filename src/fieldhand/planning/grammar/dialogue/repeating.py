@@ -9,7 +9,7 @@ from typing import Any, cast
 from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.driving import drive, visits
-from fieldhand.planning.grammar.dialogue.other_ground import ground_of, on_ground
+from fieldhand.planning.grammar.dialogue.other_ground import ground_of, in_zone, on_ground, zone_of_points
 from fieldhand.planning.grammar.dialogue.plans import (
     Path,
     as_choice,
@@ -21,7 +21,7 @@ from fieldhand.planning.grammar.dialogue.plans import (
 )
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, done_at, with_step
 from fieldhand.planning.grammar.meaning import Again, DriveCommand, PlaceMeaning, wait_thing
-from fieldhand.planning.grammar.places.sampling import bare_zone
+from fieldhand.planning.grammar.places.sampling import bare_zone, whole_zone
 from fieldhand.planning.selections import (
     are_rows,
     blocks_of,
@@ -154,9 +154,8 @@ def repeated_in(setting: Setting, state: DialogueState, area: s.Selector, used: 
     """
     steps = state.plan.steps
     area = _of_same_block(area, steps)
-    on_ground_only = all(ground_of(step) for step in steps if _selects(step))
-    zone = bare_zone(area, setting.site) or (area.whole_zone if on_ground_only else "")
-    places = [ground_of(step) if zone else _place_in(step, area) for step in steps]
+    bare, zone = bare_zone(area, setting.site), whole_zone(area)
+    places = [(zone and ground_of(step)) or (None if bare else _place_in(step, area)) for step in steps]
     if state.scope or not steps or state.awaits_command:
         raise NotComposed(message("it is not clear what is repeated, and where", context="fault"))
     old = next((place for place in reversed(places) if place is not None), None)
@@ -182,6 +181,15 @@ def repeated_in(setting: Setting, state: DialogueState, area: s.Selector, used: 
         where=None if visits is None else PlaceMeaning(visits.select, "several"),
         commands_in_sentence=state.commands_in_sentence + 1,
     )  # fmt: skip
+
+
+def moved_to(places: s.Selector, area: s.Selector) -> s.Selector:
+    """Return the places of another area that are chosen like some places; all of it if these are none of an area."""
+    zone = whole_zone(area)
+    if zone and zone_of_points(places):
+        return in_zone(places, zone)
+    part = replaceable_area(places, area)
+    return area if part is None else swapped(places, part, area)
 
 
 def _of_same_block(area: s.Selector, steps: Sequence[p.Node]) -> s.Selector:

@@ -8,15 +8,19 @@ from fieldhand.language import message
 from fieldhand.planning.grammar.dialogue.paces import require_possible, said_speed, slow_assumption
 from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting
 from fieldhand.planning.grammar.meaning import PaceClause, SlowPlace, WayRule
+from fieldhand.task import plan as p
 
 
 def ruled(setting: Setting, state: DialogueState, command: WayRule) -> DialogueState:
     """Return the state after a rule of where the robot drives.
 
     Raises:
-        NotComposed: It is not said how near to a place it drives slowly.
+        NotComposed: It is not said how near to a place it drives slowly, or only some places are so far from another.
         OpenQuestion: It is not said how slowly.
     """
+    if command.described and sum(node.selector is not None for node in p.walk(state.plan)) > 1:
+        what = message("a distance is kept in the whole mission, not at some of its places only", context="fault")
+        raise NotComposed(what, command.used, message("ask for those places in a mission of their own"))
     slow: list[SlowPlace] = []
     for one in command.slow:
         if one.metres is None:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TypeVar
+from typing import Literal, TypeVar
 
 from fieldhand.places import selectors as s
+from fieldhand.places.series_statistics import Statistic
 from fieldhand.planning.grammar.dialogue.faults import Fork, NotComposed, OpenQuestion
 from fieldhand.planning.grammar.dialogue.plans import EMPTY, Path, block_at, with_node
 from fieldhand.planning.grammar.meaning import (
@@ -144,6 +145,7 @@ class DialogueState:
         runs_on: True if the last "otherwise" stands in a text without a mark that shows where its case ends.
         watches: Conditions that are checked throughout the mission.
         after_watch: True if the last clause said how long the robot waits in one of them.
+        asked_for: Statistic of the last readings that was asked for; empty if none was.
         sequenced: True if a connective says that one command follows another ("then").
     """
 
@@ -187,6 +189,7 @@ class DialogueState:
     watches: tuple[Watch, ...] = ()
     after_watch: bool = False
     sequenced: bool = False
+    asked_for: Statistic | Literal[""] = ""
 
     @property
     def block(self) -> p.InOrder:

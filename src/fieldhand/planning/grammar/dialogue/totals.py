@@ -40,7 +40,7 @@ def reported(setting: Setting, state: DialogueState, command: Reported) -> Dialo
     )
     steps = state.plan.steps
     plan = replace(state.plan, steps=(*steps[:-1], _also_said(steps[-1], said)))
-    return with_assumption(replace(state, plan=plan), sentence)
+    return with_assumption(replace(state, plan=plan, asked_for=command.of), sentence)
 
 
 def _also_said(step: p.Node, said: Spans) -> p.Node:

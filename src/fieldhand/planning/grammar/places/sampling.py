@@ -80,12 +80,16 @@ class SamplingPath:
         return s.Transect(count=count, shape=self.shape, legs=self.legs, of=of)
 
 
+def whole_zone(area: s.Selector) -> str:
+    """Return the name of the zone that an area is; empty for other areas."""
+    zone = as_zone(area)
+    return "" if zone is None or zone.outside or zone.margin_m or zone.of != s.Trees() else zone.zone
+
+
 def bare_zone(area: s.Selector, site: Site) -> str:
     """Return the name of the zone that an area is, if no trees grow in it; else empty."""
-    zone = as_zone(area)
-    if zone is None or zone.outside or zone.margin_m or zone.of != s.Trees():
-        return ""
-    return "" if site.trees and ids_of(zone, site) else zone.zone
+    name = whole_zone(area)
+    return "" if name and site.trees and ids_of(area, site) else name
 
 
 @dataclass(frozen=True, slots=True)
