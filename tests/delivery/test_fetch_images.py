@@ -5,11 +5,12 @@ from __future__ import annotations
 import hashlib
 from pathlib import Path
 
+import httpx
 import pytest
 
 from fieldhand.delivery.bundle_checks import sha256_of
-from fieldhand.delivery.fetch_images import fetch_images, images_in
-from fieldhand.errors import DeliveryError, OutputError
+from fieldhand.delivery.fetch_images import ImageFetcher, fetch_images, images_in
+from fieldhand.errors import DeliveryError, OutputError, UnreachableError
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.results import Acted, ImageFile
 from support.missions.signed import good
@@ -66,6 +67,32 @@ def test_what_is_missing_or_changed_is_said(robot_agent: RobotAgentInProcess, tm
         "images/00009-n1-rgb.png: there is no such image",
     )
     assert [path.name for path in (tmp_path / "out" / "images").iterdir()] == ["00002-n1-rgb.jpg"]
+
+
+def test_images_are_fetched_as_events_arrive_and_what_was_prevented_at_the_end(
+    robot_agent: RobotAgentInProcess, tmp_path: Path
+) -> None:
+    bundle, out, lost = sha256_of(good()), tmp_path / "out", [False]
+
+    def lose(request: httpx.Request) -> str:
+        return "request" if lost[0] else ""
+
+    fetcher = ImageFetcher(robot_agent.link(lose), bundle, out)
+    there = []
+    for number, (name, data) in enumerate(CONTENTS.items()):
+        lost[0] = number == 1
+        fetcher.take(line(image(name, data)))
+        there.append((out / "images" / name).exists())
+    assert there == [True, False, True]
+    fetcher.take("no line")
+    fetched = fetcher.finish()
+    assert (fetched.count, fetched.problems) == (3, ())
+    assert {path.name: path.read_bytes() for path in (out / "images").iterdir()} == CONTENTS
+    lost[0] = True
+    missing = ImageFetcher(robot_agent.link(lose), bundle, tmp_path / "another")
+    missing.take(line(image("00001-n1-rgb.png", b"one")))
+    with pytest.raises(UnreachableError):
+        missing.finish()
 
 
 @pytest.mark.parametrize("name", ["../../secret", "images/../../x.png", "/etc/passwd", "images/a/b.png", "images/.png"])

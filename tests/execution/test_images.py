@@ -15,9 +15,12 @@ from fieldhand.execution.drivers.protocol import CapturedImage, Position
 from fieldhand.execution.images.course import Course
 from fieldhand.execution.images.folder import ImageFolder, save_image
 from fieldhand.execution.images.metadata import ImageFacts, with_metadata
+from fieldhand.robot.camera import Camera
+from fieldhand.site.bearings import apart_deg
 from fieldhand.site.model import Place
 from fieldhand.task.event_lines import from_json, to_json
 from fieldhand.task.results import Acted
+from support.missions.rig import husky
 
 FACTS = ImageFacts(
     number=12,
@@ -161,6 +164,42 @@ def test_an_event_names_its_images(tmp_path):
     )  # fmt: skip
     assert from_json(to_json(event)) == event
     assert '"images":' in to_json(event)
+
+
+@pytest.mark.parametrize(
+    ("side", "direction"), [("left", 353.25), ("right", 173.25), ("front", 83.25), ("back", 263.25)]
+)
+def test_the_direction_of_an_image_is_that_of_its_camera(tmp_path, side, direction):
+    robot = husky()
+    seen = replace(robot.action["take_thermal_picture"], camera=Camera(side=side))
+    robot = replace(robot, actions=tuple(seen if a.name == seen.name else a for a in robot.actions))
+    folder = replace(ImageFolder.of(tmp_path, "m", robot), least_free=0)
+    for number, (action, expected) in enumerate([("take_thermal_picture", direction), ("read_co2", 83.25)]):
+        saved = folder.save(image(), replace(FACTS, action=action, number=number))
+        with Image.open(tmp_path / saved.file) as opened:
+            assert float(opened.getexif().get_ifd(GPS)[ExifTags.GPS.GPSImgDirection]) == pytest.approx(expected)
+
+
+@given(st.sampled_from(["left", "right", "front", "back"]), st.floats(0, 359.9), st.floats(0, 359.9))
+def test_a_camera_that_is_turned_to_a_plant_has_it_in_the_middle(side, heading, bearing):
+    camera = Camera(side=side)
+    assert apart_deg(camera.bearing_at(camera.heading_towards(bearing)), bearing) == pytest.approx(0.0, abs=1e-9)
+    assert apart_deg(camera.bearing_at(heading), bearing) == pytest.approx(camera.off_deg(heading, bearing), abs=1e-9)
+
+
+def test_a_heading_that_is_reported_or_commanded_counts_before_the_last_metres():
+    course, at = Course(), Position(x=0.0, y=0.0, lat=0.0, lon=0.0)
+    course.add(at)
+    course.add(replace(at, y=2.0))
+    assert course.heading_deg == pytest.approx(0.0)
+    course.add(replace(at, y=2.0, heading_deg=120.0))
+    assert course.heading_deg == 120.0
+    course.turned(240.0, replace(at, y=2.0))
+    course.turned(None, replace(at, y=2.0))
+    course.add(replace(at, y=2.1))
+    assert course.heading_deg == 240.0
+    course.add(replace(at, x=2.0, y=2.0))
+    assert course.heading_deg == pytest.approx(90.0)
 
 
 def test_the_heading_is_that_of_the_last_metres():

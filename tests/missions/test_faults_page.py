@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import get_args
 
@@ -23,11 +24,21 @@ from support.missions.rig import approved
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 EXAMPLE = re.compile(r"```yaml\n# (.*?)\n(.*?)```\n\n```text\n(.*?)```", re.DOTALL)
 EXAMPLES = EXAMPLE.findall((DOCS / "faults.md").read_text())
+NARROW = re.compile(
+    r"```yaml\n((?:(?!```).)*)```\n\nWith `corridor_m: (\d)` the log of \"(.*?)\" then says:\n\n```text\n(.*?)```",
+    re.DOTALL,
+)
+IN_CORRIDOR = [
+    (request, world, said, float(corridor_m))
+    for world, corridor_m, request, said in NARROW.findall((DOCS / "faults.md").read_text())
+]
+ALL = [(*example, None) for example in EXAMPLES] + IN_CORRIDOR
 
 
-@pytest.mark.parametrize(("request_", "world", "said"), EXAMPLES, ids=[str(k) for k in range(len(EXAMPLES))])
-def test_the_log_says_what_the_page_says(request_: str, world: str, said: str) -> None:
-    site, robot, event_text = open_site("demo"), load_robot("husky"), EventText(load_robot("husky"))
+@pytest.mark.parametrize(("request_", "world", "said", "corridor_m"), ALL, ids=[str(k) for k in range(len(ALL))])
+def test_the_log_says_what_the_page_says(request_: str, world: str, said: str, corridor_m: float | None) -> None:
+    site, robot = open_site("demo"), replace(load_robot("husky"), corridor_m=corridor_m)
+    event_text = EventText(robot)
     outcome = mission.plan(request_, site, robot, EnglishPlanner())
     assert isinstance(outcome, Planned)
     lines: list[str] = []
@@ -46,6 +57,7 @@ def test_the_log_says_what_the_page_says(request_: str, world: str, said: str) -
 
 def test_the_page_has_its_examples() -> None:
     assert len(EXAMPLES) == (DOCS / "faults.md").read_text().count("```yaml\n# ") > 5
+    assert len(IN_CORRIDOR) == (DOCS / "faults.md").read_text().count("With `corridor_m: ") == 2
 
 
 def test_the_page_of_formats_lists_every_fault() -> None:

@@ -153,6 +153,8 @@ class Process:
                 "made": [(said.name, said.place) for said in self.said_of_goals if said.end == "succeeded"],
                 "ends": [(said.name, said.end) for said in self.said_of_goals],
                 "driven_m": robot.platform.metres,
+                "xy": robot.platform.true_position.xy,
+                "believes": robot.platform.position.xy,
                 "navigators": self.navigators.servers(),
             }
         return {"executing": len(robot.navigation.executing) + len(robot.sampler.executing), "xy": robot.xy,

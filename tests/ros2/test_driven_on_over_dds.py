@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-import time
+import math
 from pathlib import Path
 
 import pytest
@@ -11,6 +11,9 @@ import yaml
 
 from fieldhand import missions
 from fieldhand.execution.journal import store
+from fieldhand.forecast.visit_order import drives_for, start_place
+from fieldhand.robot.loader import load_robot
+from fieldhand.site.loader import open_site
 from fieldhand.task.event_lines import to_json
 from fieldhand.task.results import Driving, Ended, Event, Resumed
 from ros2.sim_robots import SimRobot, patient, sim_robot
@@ -21,6 +24,7 @@ pytest.importorskip("cyclonedds")
 
 #: Its seconds in one of ours.
 FAST = 20.0
+SITE = open_site("demo")
 REQUEST = "Measure CO2 at tree 60, then at tree 5."
 
 
@@ -45,6 +49,13 @@ def driven_m(robot: SimRobot) -> float:
     return sum(line["metres"] for line in robot.account() if line["event"] == "goal" and "navigate" in line["name"])
 
 
+def moved_m(robot: SimRobot) -> float:
+    """Return how far it is from where it began, by the state that it keeps up to date."""
+    state = json.loads((robot.folder / "robot.json").read_text())
+    start = start_place(drives_for(SITE, load_robot("husky")))
+    return math.dist((state["x"], state["y"]), start.stand or start.xy)
+
+
 def events(under: Path) -> list[Event]:
     """Return the events in the journal of the only mission."""
     folders = [folder for folder in under.glob("*") if missions.exists(folder)]
@@ -59,7 +70,7 @@ def test_metres_driven_while_the_program_was_dead_are_counted(tmp_path: Path, al
         run = ("run", REQUEST, "--site", "demo", "--robot", husky, "--yes", "--confirm", "--missions", str(under))
         with in_background(*run, *robot.reached, out=tmp_path / "run.txt"):
             until(lambda: any(isinstance(e, Driving) for e in events(under)))
-            time.sleep(0.4)  # some metres of the first drive are observed, most are not
+            until(lambda: moved_m(robot) > 3.0)  # of its first drive, most of which nobody observes
         (folder,) = under.iterdir()
         until(lambda: not missions.is_running(folder))
         before_m = driven_m(robot)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import hashlib
 import json
+import math
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -23,7 +24,9 @@ from fieldhand.execution.mission_runner import run
 from fieldhand.planning.english.planner import EnglishPlanner
 from fieldhand.planning.planner import Planned
 from fieldhand.robot.loader import load_robot, profile_bytes
+from fieldhand.site.bearings import apart_deg
 from fieldhand.site.loader import open_site
+from fieldhand.site.model import Site
 from fieldhand.task.results import Acted, Event, ImageLost
 from ros2.robot_in_process import connected_simulated_robot
 from ros2.sim_robots import patient, sim_robot
@@ -43,9 +46,11 @@ def _no_disk(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def with_cameras(folder: Path) -> str:
-    """Write the profile of a husky with two cameras: one on a topic, one that publishes JPEGs."""
+    """Write the profile of a husky with two cameras on its left: one on a topic, one that publishes JPEGs."""
     path = patient(folder)
     robot: dict[str, Any] = yaml.safe_load(path.read_text())
+    robot["turn_deg_s"] = 45
+    robot["actions"]["take_thermal_picture"]["camera"] = {"side": "left"}
     robot["ros2"]["actions"]["take_thermal_picture"]["images"] = {
         "rgb": {"topic": "camera/image_raw", "within_s": 600},
         "thermal": {
@@ -96,6 +101,10 @@ def test_images_are_saved_and_referenced(tmp_path: Path) -> None:
             gps = exif.get_ifd(0x8825)
             tree = site.by_id[event.place].place
             assert degrees(gps[ExifTags.GPS.GPSLatitude]) == pytest.approx(tree.lat, abs=3e-5)
+            assert event.heading_deg is not None
+            looks = float(gps[ExifTags.GPS.GPSImgDirection])
+            assert apart_deg(looks, event.heading_deg - 90.0) < 2.0
+            assert apart_deg(looks, _bearing(site, event)) <= 30.0  # the tree is in view
             about = json.loads(exif[ExifTags.Base.ImageDescription])
             assert (about["node"], about["place"]["id"], about["image"]) == (event.node, event.place, image.name)
     files = [image.file for event in made for image in event.images]
@@ -103,6 +112,13 @@ def test_images_are_saved_and_referenced(tmp_path: Path) -> None:
     _is_shown(out, files)
     _is_exported(tmp_path / "log.mcap", files)
     _is_missed(under, folder, tmp_path / "again", files)
+
+
+def _bearing(site: Site, event: Acted) -> float:
+    """Return the bearing of the tree from the robot at a capture."""
+    x, y = site.projection.metres(event.robot_lat, event.robot_lon)[0]
+    tree = site.by_id[event.place].place
+    return math.degrees(math.atan2(tree.x - x, tree.y - y)) % 360.0
 
 
 def _is_shown(out: Path, files: list[str]) -> None:

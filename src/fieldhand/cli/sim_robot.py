@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 #: Highest speed: above it, the robot would drive for minutes between two checks of its messages.
 _FASTEST = 1000.0
+#: Least distance in metres between the robot and where it believes to be that is printed.
+_SEEN_M = 0.005
 
 
 @grouped("site robot world seed speed distro on domain namespace state lenient json")
@@ -165,6 +167,8 @@ def _print_report(report: GoalReport) -> None:
     facts = [f"{report.metres:.1f} m"] if report.metres else []
     if report.end != "rejected":
         facts += [f"{report.took_s:.1f} s", *(f"{name} {value:.4g}" for name, value in report.readings.items())]
+    if report.off_m >= _SEEN_M:
+        facts.append(f"{report.off_m:.2f} m from where it believes to be")
     why = f" ({report.why})" if report.why and report.why != report.end else ""
     done = f": {', '.join(facts)}" if facts else ""
     head = f"{report.seconds:8.1f} s  {report.name} at {report.place} {report.end}"

@@ -28,7 +28,9 @@ def watch(
     ] = None,
     images: Annotated[
         Path | None,
-        typer.Option("--images", callback=to_folder, help="Fetch the images of its captures into this folder."),
+        typer.Option(
+            "--images", callback=to_folder, help="Fetch the images of its captures into this folder, as they are made."
+        ),
     ] = None,
     seed: RetrySeedOption = None,
     json: JsonOption = False,
@@ -43,7 +45,7 @@ def watch(
 
     from fieldhand.cli import show
     from fieldhand.cli.links import find_mission, state_line
-    from fieldhand.delivery.fetch_images import fetch_images, images_in
+    from fieldhand.delivery.fetch_images import ImageFetcher
     from fieldhand.delivery.follow_mission import follow
     from fieldhand.delivery.json_models import LONGEST_WAIT_S
     from fieldhand.execution.event_log import EventLog
@@ -57,22 +59,22 @@ def watch(
         summary = find_mission(client, mission)
         log = None if events is None else stack.enter_context(EventLog(events))
 
-        lines: list[str] = []
+        fetcher = None if images is None else ImageFetcher(client, summary.bundle, images)
 
         def take(event: EventLine) -> None:
-            if images is not None:
-                lines.append(event.line)
             if log is not None:
                 log.line(event.line)
             if not json:
                 _show(event)
+            if fetcher is not None:
+                fetcher.take(event.line)
 
         if not json:
             show.out.print(state_line(summary))
         rng = random.Random(seed)  # noqa: S311
         last = follow(client, summary.bundle, take=take, once=once, wait_s=LONGEST_WAIT_S, lost=lost, rng=rng)
-        if images is not None:
-            fetched = fetch_images(client, summary.bundle, images_in(lines), images)
+        if images is not None and fetcher is not None:
+            fetched = fetcher.finish()
             for problem in fetched.problems:
                 show.note(problem)
             if not json:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -78,6 +79,35 @@ def fetch_images(link: RobotClient, sha256: str, images: Sequence[ImageFile], fo
             ) from None
         count += 1
     return FetchedImages(count=count, problems=tuple(problems))
+
+
+class ImageFetcher:
+    """Fetches the images of a mission as its events arrive.
+
+    An image that cannot be fetched then, because the connection is lost or the robot is busy, is fetched at the end.
+
+    Args:
+        link, sha256, folder: As for :func:`fetch_images`.
+    """
+
+    def __init__(self, link: RobotClient, sha256: str, folder: Path) -> None:
+        self._link, self._sha256, self._folder = link, sha256, folder
+        self._images: list[ImageFile] = []
+
+    def take(self, line: str) -> None:
+        """Fetch the images that a line of the event log names.
+
+        Raises:
+            OutputError: The folder cannot be written.
+        """
+        named = images_in([line])
+        self._images += named
+        with suppress(DeliveryError):
+            fetch_images(self._link, self._sha256, named, self._folder)
+
+    def finish(self) -> FetchedImages:
+        """Fetch what is missing; raise what :func:`fetch_images` raises."""
+        return fetch_images(self._link, self._sha256, self._images, self._folder)
 
 
 def _is_there(path: Path, image: ImageFile) -> bool:

@@ -415,6 +415,9 @@ class RecordedInputs:
         """Keep what is needed to find out what the robot drives on during a power cut."""
         self._last = observation
         self._course.add(observation.position)
+        position, goal = observation.position, self._goal
+        if position.heading_deg is None and isinstance(goal, DriveGoal) and observation.progress.state == "succeeded":
+            self._course.turned(goal.heading_deg, position)
         self._files = observation.progress.files
         self.absent_s += observation.absent_s
         if observation.progress.state == "running":

@@ -119,7 +119,7 @@ def carry_out(
         orders=orders,
         log=log,
         simulated=vehicle.simulated,
-        images=None if images is None else ImageFolder(mission_folder=images, mission=task.id, robot=robot.name),
+        images=None if images is None else ImageFolder.of(images, task.id, robot),
     )
     return Run(mission=mission, result=result, images=images)
 

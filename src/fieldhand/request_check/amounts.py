@@ -195,6 +195,8 @@ def _counted(tokens: Sequence[Token], k: int, nouns: dict[int, Noun]) -> tuple[A
         text = tokens[at].text
         if _is_counted(tokens, at, nouns) and nouns[at].actions:
             return "captures", nouns[at].actions
+        if text in w.READINGS and at == k:
+            return "captures", frozenset()
         if text in w.CORNERS:
             return "corners", frozenset()
         if text in w.TREES:

@@ -52,6 +52,10 @@ _BESIDE_THEM = re.compile(
     r"|\b(?:next to|beside|alongside|neighbou?rs? of|sides? of)"
     r" (?:the (?:\w+ ){0,2}\w+s|those|every|any|all|\w+s with)\b"
 )
+#: Words of an exception.
+_LEAVES_OUT = w.NEGATIONS | w.words_in(
+    "apart aside bar barring but forget ignore leave leaving minus omit save skipping"
+)
 #: Pattern of a half that is named by a place near it, or by words that no map explains.
 _SOME_HALF = re.compile(
     r"\bhalf (?:of (?:\w+ ){1,4})?(?:nearest|closest|next)\b"
@@ -435,6 +439,16 @@ def _sides(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
             )
 
 
+def _rows_left_out(value: str, facts: RequestFacts, plan: PlanFacts, site: Site) -> bool:
+    """Return True if a plan lists rows, and leaves out those whose plants share a value: "but not the lettuce"."""
+    if not any(token.text in _LEAVES_OUT for token in facts.tokens):
+        return False
+    listed = [(x.first, x.last) for _, x in plan.having(s.Rows) if isinstance(x, s.Rows) and x.first]
+    named = {first for first, last in listed if first == last}
+    own = {row.name for row in site.planting.rows if value in _values_in_row(row.name, site, shared=True)}
+    return len(named) > 1 and len(named) == len(set(listed)) and bool(own) and own.isdisjoint(named)
+
+
 def _attributes(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMismatch]:
     """Yield attribute values of the request that the plan lacks, and the reverse."""
     held = {" ".join(t.text for t in _tokens(str(value))) for _, _, value in plan.values}
@@ -444,6 +458,8 @@ def _attributes(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[Pl
         held |= {_name_text(str(value)) for value in site.by_id[tree].properties.values()}
     by_neighbours = bool(plan.trees and _BESIDE_THEM.search(facts.text))  # "the trees next to the yellow ones", by id
     for word in facts.attributes:
+        if _rows_left_out(word, facts, plan, site):
+            continue
         if not by_neighbours and not any(word in other or other in word for other in held):
             yield PlanMismatch(
                 kind="attribute",

@@ -106,6 +106,7 @@ TREES = words_in("""
     tree trees vine vines plant plants palm palms bush bushes spot spots place places point points stops location
     locations site sites position positions ones them these those
     """)
+READINGS = words_in("readings measurements samples")
 CORNERS = frozenset({"corner", "corners"})
 #: Words for the legs of a zigzag.
 LEGS = words_in("leg legs segment segments stroke strokes")

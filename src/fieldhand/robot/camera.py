@@ -41,6 +41,10 @@ class Camera:
         """Return the heading of the robot at which the middle of the picture has this bearing."""
         return (bearing_deg - _CLOCKWISE_DEG[self.side]) % 360.0
 
+    def bearing_at(self, heading_deg: float) -> float:
+        """Return the bearing of the middle of the picture at a heading of the robot."""
+        return (heading_deg + _CLOCKWISE_DEG[self.side]) % 360.0
+
     def off_deg(self, heading_deg: float, bearing_deg: float) -> float:
         """Return the angle of a bearing from the middle of the picture in degrees, 0 to 180."""
         return apart_deg(self.heading_towards(bearing_deg), heading_deg)

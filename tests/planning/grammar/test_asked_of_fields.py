@@ -129,7 +129,7 @@ EACH_OF_ANOTHER = [
     (
         GLASSHOUSE,
         "Two leaf samples per cultivar, each from a different plant, and skip the Long Tom.",
-        "for Excluding(Where(cultivar, eq, Long Tom), of Quota(cultivar, 2)): [sample_leaf]",
+        "for Quota(cultivar, 2, of Excluding(Where(cultivar, eq, Long Tom))): [sample_leaf]",
     ),
     (
         GLASSHOUSE,

@@ -310,8 +310,8 @@ REFUSED = [
         "measure the soil moisture in bed 3",
         "husky cannot read the soil moisture: no action 'read_soil_moisture'",
     ),
-    (GARDEN, AMIGA, "photograph the carrots", "not understood: 'carrots'"),
-    (GARDEN, AMIGA, "photograph the tomato bed", "not understood: 'tomato'"),
+    (GARDEN, AMIGA, "photograph the carrots", "'carrots': none of the plants here is of this kind"),
+    (GARDEN, AMIGA, "photograph the tomato bed", "'tomato': none of the plants here is of this kind"),
     (GLASSHOUSE, AMIGA, "photograph bed 9", "there is no row '9' in block mild bay, block hot bay"),
 ]
 

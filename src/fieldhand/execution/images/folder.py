@@ -9,14 +9,16 @@ from __future__ import annotations
 import hashlib
 import re
 import shutil
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from fieldhand.execution.drivers.protocol import CapturedImage
 from fieldhand.execution.images.metadata import ImageFacts, with_metadata
 from fieldhand.files import write_whole
 from fieldhand.language import message
+from fieldhand.robot.camera import Camera
+from fieldhand.robot.model import RobotProfile
 from fieldhand.task.results import ImageFile
 
 #: Name of the folder, below that of the mission.
@@ -43,6 +45,7 @@ class ImageFolder:
     Attributes:
         mission_folder: Folder of the mission, which exists; images lie in :data:`IMAGES` below it.
         mission, robot: Id of the mission's Task and name of the robot, for the metadata.
+        cameras: Camera of each action whose side is known, for the direction of its images.
         least_free: Bytes that must remain free; with less, images are not saved.
         free: Returns the free bytes of a folder's disk.
     """
@@ -50,13 +53,21 @@ class ImageFolder:
     mission_folder: Path
     mission: str = ""
     robot: str = ""
+    cameras: Mapping[str, Camera] = field(default_factory=dict)
     least_free: int = LEAST_FREE
     free: Callable[[Path], int] = free_bytes
+
+    @classmethod
+    def of(cls, mission_folder: Path, mission: str, robot: RobotProfile) -> ImageFolder:
+        """Return the folder of a mission that a robot carries out."""
+        cameras = {name: action.camera for name, action in robot.doable.items() if action.camera is not None}
+        return cls(mission_folder=mission_folder, mission=mission, robot=robot.name, cameras=cameras)
 
     def save(self, image: CapturedImage, facts: ImageFacts) -> ImageFile:
         """Save an image; without space, or if the disk fails, the result says why it was not."""
         name = "-".join([f"{facts.number:05d}", *([facts.node] if _PLAIN.fullmatch(facts.node) else []), image.name])
         file = f"{IMAGES}/{name}.{_ENDINGS[image.format]}"
+        facts = replace(facts, camera=self.cameras.get(facts.action))
         try:
             data = with_metadata(image, facts, self.mission, self.robot)
             (self.mission_folder / IMAGES).mkdir(mode=0o755, exist_ok=True)

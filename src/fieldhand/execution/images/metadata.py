@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 from fieldhand.compatibility import UTC
 from fieldhand.execution.drivers.protocol import CapturedImage, Position
 from fieldhand.hidden_characters import visible
+from fieldhand.robot.camera import Camera
 from fieldhand.site.model import Place
 
 if TYPE_CHECKING:
@@ -42,8 +43,9 @@ class ImageFacts:
         action: Name of the action.
         place: Place at which it was taken.
         position: Position of the robot.
-        heading_deg: Direction in which it came there, in degrees clockwise from true north; None if unknown.
+        heading_deg: Heading of the robot in degrees clockwise from true north; None if unknown.
         taken_s: Time of day in seconds since 1970; None if there is none.
+        camera: Camera that took it, if the profile says where it looks.
     """
 
     number: int
@@ -54,6 +56,14 @@ class ImageFacts:
     position: Position
     heading_deg: float | None
     taken_s: float | None
+    camera: Camera | None = None
+
+    @property
+    def direction_deg(self) -> float | None:
+        """Direction of the picture, in degrees clockwise from true north; that of the robot without a camera's side."""
+        if self.heading_deg is None or self.camera is None:
+            return self.heading_deg
+        return self.camera.bearing_at(self.heading_deg)
 
 
 def with_metadata(image: CapturedImage, facts: ImageFacts, mission: str, robot: str) -> bytes:
@@ -139,8 +149,8 @@ def _exif(opened: Image.Image | None, image: CapturedImage, facts: ImageFacts, m
         taken = datetime.fromtimestamp(facts.taken_s, UTC)
         gps[gps_tag.GPSDateStamp] = taken.strftime("%Y:%m:%d")
         gps[gps_tag.GPSTimeStamp] = tuple(_rational(float(part)) for part in (taken.hour, taken.minute, taken.second))
-    if facts.heading_deg is not None:
-        gps[gps_tag.GPSImgDirectionRef], gps[gps_tag.GPSImgDirection] = "T", _rational(facts.heading_deg)
+    if facts.direction_deg is not None:
+        gps[gps_tag.GPSImgDirectionRef], gps[gps_tag.GPSImgDirection] = "T", _rational(facts.direction_deg)
     own = exif.get_ifd(_GPS_IFD)
     own.clear()
     own.update(gps)

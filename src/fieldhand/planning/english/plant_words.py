@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 
@@ -60,6 +60,40 @@ def _kinds(site: Site) -> Iterator[tuple[Phrase, NameEntry]]:
                 found.setdefault(((*head, many), True), []).append((attribute, text))
     for (phrase, plural), meant in found.items():
         yield phrase, NameEntry(kind="ATTRVAL", value=tuple(dict.fromkeys(meant)), plural=plural)
+
+
+def absent_plant(words: Sequence[str], site: Site) -> str:
+    """Return the words at the beginning of others that name a plant; empty if they name none or one of the site's.
+
+    A site whose file does not say of what kind its plants are, only of which variety, may have it.
+    """
+    kinds = kinds_of_plants(site)
+    for count in (2, 1):
+        named = tuple(words[:count])
+        if not kinds or len(named) < count or named not in _known_plants():
+            continue
+        one = (*named[:-1], _singular(named[-1]) or named[-1])
+        grown = any(split(kind)[-count:] in (named, one) for kind in kinds)
+        return "" if grown else " ".join(named)
+    return ""
+
+
+def kinds_of_plants(site: Site) -> list[str]:
+    """Return what grows on a site, as its file names it, but for the varieties."""
+    varieties = {*vocabulary()["plants"]["variety_attributes"], "variety"}
+    found = [
+        values
+        for attribute, values in site.attributes.items()
+        if is_kind_attribute(attribute) and not set(name_words(attribute)) & varieties and len(values) <= _MOST_KINDS
+    ]
+    return [value for values in found if len(values) > 1 for value in values if isinstance(value, str)]
+
+
+@cache
+def _known_plants() -> frozenset[Phrase]:
+    """Return the names of common plants in both numbers."""
+    names = [split(name) for name in vocabulary()["plants"]["known"]]
+    return frozenset({*names, *((*head, many) for *head, last in names for many in _plurals(last))})
 
 
 def _plurals(noun: str) -> set[str]:

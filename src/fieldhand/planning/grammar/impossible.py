@@ -66,6 +66,23 @@ def no_such_number(number: Lex, inner: Nominal) -> Impossible | None:
     return Impossible(message("it is not clear how many"), message("say how many as a whole number above 0"))
 
 
+@construction(
+    "n=count READING INSUCCESSION [IS] predicate", "n=count CONSECUTIVE READING [IS] predicate",
+    "n=count noun=NOUN INSUCCESSION [IS] predicate", "n=count CONSECUTIVE noun=NOUN [IS] predicate",
+    "n=count TREE INSUCCESSION [IS] predicate", "n=count CONSECUTIVE TREE [IS] predicate",
+    "n=count INSUCCESSION [IS] predicate", "n=count READING [IS] predicate INSUCCESSION",
+)  # fmt: skip
+def readings_in_succession(n: int, noun: Lex | None = None) -> Impossible | None:
+    """Compose "two readings in a row are below 25 percent"."""
+    del noun
+    if n < 2:
+        return None
+    return Impossible(
+        message("readings that follow each other are not counted by themselves"),
+        message("say 'stop when {count} readings are below ...', or 'stop at the first reading below ...'", count=n),
+    )
+
+
 @construction("PARALLEL region", "PARALLEL place")
 def askew() -> Impossible:
     """Compose "parallel to the hedge", which runs neither from north to south nor from east to west."""

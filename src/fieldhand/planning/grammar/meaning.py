@@ -51,6 +51,8 @@ SAME_VALUE = "="
 OPEN_VALUE = "?"
 #: Rows that were named before ("these rows"), until the dialogue knows which.
 THOSE_ROWS = s.Rows(first="those rows", last="the last of those rows")
+#: The rows that were not named before: "each of the others".
+OTHER_ROWS = s.Excluding(places=THOSE_ROWS, of=s.Rows())
 #: Zone that was spoken of before ("mow it"), until the dialogue knows which.
 THAT_GROUND = "that ground"
 #: Value of a parameter that is the profile's own ("at the standard depth").

@@ -73,7 +73,13 @@ def purpose(sentence: Sequence[int], openings: Mapping[int, int], known: WordKin
     command = next((at for at in range(end, len(said)) if known.words[said[at]].norm not in _JOINTS | {",", ":"}), end)
     marks = [k for k in said[end : end + 1] if known.words[k].kind == "comma"]
     opens = all(known.kinds[k] & _OPENING or known.words[k].kind == "comma" for k in sentence[:begin])
-    told = frozenset({*said[:command], *marks})
+    joints = set[int]()
+    if command == len(said):  # ", and compare the means" behind what is read
+        for k in reversed(sentence[:begin]):
+            if known.words[k].kind != "comma" and known.words[k].norm != "and":
+                break
+            joints.add(k)
+    told = frozenset({*said[:command], *marks, *joints})
     if opens and len(places) == 1 and _refers_back(max(told) + 1, known) and _is_whole(places[0], body, known):
         return Telling(left_out=told - {said[0], *places[0]}, topic=said[0])
     return _named_again(places, told, said, known)

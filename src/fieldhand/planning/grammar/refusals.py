@@ -10,6 +10,7 @@ from fieldhand.language.words import listed, say_action, say_unit, some_names
 from fieldhand.places.place_errors import no_such_tree
 from fieldhand.planning.english.lacking import lacked_actions, measured_units
 from fieldhand.planning.english.languages import language_of
+from fieldhand.planning.english.plant_words import absent_plant, kinds_of_plants
 from fieldhand.planning.english.tokens import Word, words_of
 from fieldhand.planning.grammar.chart import Chart, PhraseEdge, tokens_of
 from fieldhand.planning.grammar.dialogue import NotComposed
@@ -157,6 +158,19 @@ def _unknown(
             yield code
         else:
             strange.append(k)
+    plants = [(k, name) for k in strange if (name := absent_plant([word.norm for word in words[k:]], site))]
+    plants = [
+        one for at, one in enumerate(plants) if not at or plants[at - 1][0] + len(plants[at - 1][1].split()) <= one[0]
+    ]
+    for k, name in plants:
+        end = k + len(name.split())
+        yield Reason(
+            what=message("'{said}': none of the plants here is of this kind", said=name),
+            said=((words[k].start, words[end - 1].end),),
+            advice=message("here grow {kinds}", kinds=some_names(kinds_of_plants(site), 12)),
+            final=True,
+        )
+    strange = [k for k in strange if not any(at <= k < at + len(name.split()) for at, name in plants)]
     lacked = list(lacked_actions(words, frozenset(strange), robot))
     for name in dict.fromkeys(one.name for one in lacked):
         alike = [one for one in lacked if one.name == name]

@@ -37,6 +37,7 @@ from fieldhand.execution.drivers.ros2.map_frame import (
 )
 from fieldhand.execution.drivers.ros2.message_fields import number_at, seconds_at, value_at
 from fieldhand.execution.drivers.ros2.node_states import NodeStates
+from fieldhand.execution.drivers.ros2.path_parts import parts
 from fieldhand.execution.drivers.ros2.service_call import TimeLimit
 from fieldhand.execution.drivers.ros2.transport import Client, Publisher, RosMessage, Transport
 from fieldhand.robot.bindings import FieldBinding, Ros2Bindings
@@ -260,25 +261,32 @@ class NavigationClient:
             yaw, points = yaw_of(points[-2], points[-1]), points[:-1]
             self._x_axis_deg = (heading + math.degrees(yaw)) % 360.0
         placed = site_to_map(goal.path_m, points)
-        kind = self.client_for(goal).type
+        kind, legs = self.client_for(goal).type, _legs(goal.path_m)
+        corners = [legs[0][0], *(j for _, j in legs)]
+        divided = parts([goal.path_m[k] for k in corners], binding.tolerance_m)
         if kind == "nav2_msgs/action/FollowPath":
-            return NavigationGoals(goals=[(self._path(goal, points, yaw), goal.path_m[-1])], site_to_map=placed)
-        legs = _legs(goal.path_m)
+            # Each ends at its yaw, else along its last leg.
+            paths = [
+                (
+                    self.follow_goal([points[k] for k in corners[a : b + 1]], yaw if b == len(legs) else None),
+                    goal.path_m[corners[b]],
+                )
+                for a, b in divided
+            ]
+            return NavigationGoals(goals=paths, site_to_map=placed)
         poses = [pose(binding.frame, points[i], points[j], yaw if (i, j) == legs[-1] else None) for i, j in legs]
         if kind == "nav2_msgs/action/NavigateThroughPoses":
             # Kilted uses nav_msgs/Goals: a header, then the poses.
             header: RosMessage = {"frame_id": binding.frame}
-            listed = {"header": header, "goals": tuple(poses)} if self.distro == "kilted" else tuple(poses)
-            goal_message: RosMessage = {"poses": listed, "behavior_tree": binding.behavior_tree}
-            return NavigationGoals(goals=[(goal_message, goal.path_m[-1])], site_to_map=placed)
+            some: list[tuple[RosMessage, Point]] = []
+            for a, b in divided:
+                listed = tuple(poses[a:b])
+                goals = {"header": header, "goals": listed} if self.distro == "kilted" else listed
+                some.append(({"poses": goals, "behavior_tree": binding.behavior_tree}, goal.path_m[corners[b]]))
+            return NavigationGoals(goals=some, site_to_map=placed)
         ends = [goal.path_m[j] for _, j in legs]
         each: list[RosMessage] = [{"pose": p, "behavior_tree": binding.behavior_tree} for p in poses]
         return NavigationGoals(goals=list(zip(each, ends, strict=True)), site_to_map=placed)
-
-    def _path(self, goal: DriveGoal, points: Sequence[Point], yaw: float | None) -> RosMessage:
-        """Return a goal that follows a path exactly; it ends at the given yaw, else along its last leg."""
-        legs = _legs(goal.path_m)
-        return self.follow_goal([points[legs[0][0]], *(points[j] for _, j in legs)], yaw)
 
     def follow_goal(self, points: Sequence[Point], yaw: float | None) -> RosMessage:
         """Return a goal of the controller: a path in the map, with points close to each other as controllers expect.

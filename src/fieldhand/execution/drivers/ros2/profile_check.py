@@ -175,8 +175,9 @@ def check_live(
 
 def _agrees(insisted: Distro | None, transport: Transport, bindings: Ros2Bindings) -> bool:
     """Return False once the robot is heard to have another release than the profile insists on."""
-    heard = None if insisted is None else heard_releases(transport, bindings)
-    return heard is None or insisted in heard
+    if insisted is None or (heard := heard_releases(transport, bindings)) is None:
+        return True
+    return insisted in heard
 
 
 def _node_checks(ros2: Ros2Bindings, transport: Transport, interfaces: Interfaces) -> list[LifecycleCheck]:

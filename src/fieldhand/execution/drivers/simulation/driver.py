@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -20,7 +20,9 @@ from fieldhand.execution.drivers.protocol import (
     Progress,
     StretchWork,
 )
+from fieldhand.execution.drivers.simulation.goal_course import EPSILON_S, GoalCourse, until_near_end
 from fieldhand.execution.drivers.simulation.ground_truth import GroundTruth, Hindrance, Point
+from fieldhand.execution.drivers.simulation.position_error import PositionError, apart
 from fieldhand.execution.drivers.simulation.state import SimulationState
 from fieldhand.execution.drivers.simulation.world import World
 from fieldhand.forecast.headings import turn_s
@@ -32,112 +34,8 @@ from fieldhand.site.bearings import apart_deg, first_heading, last_heading
 from fieldhand.site.model import Place, Site
 from fieldhand.site.working.stretch import total_m
 
-#: Seconds within which two times are equal: clocks add floating-point numbers.
-EPSILON_S = 1e-6
-
 #: Interval in seconds at which a robot that leaves its way is to be looked at.
 _REPORTED_S = 0.5
-
-#: Part of a path, before and behind its middle, on which a robot strays; part of it that gives its direction.
-_STRAYS, _STEP = 0.25, 0.001
-
-
-@dataclass(frozen=True, kw_only=True)
-class _Course:
-    """Course of a goal, determined when it starts, but unknown to the mission.
-
-    Attributes:
-        start_s: Time of its start in seconds.
-        lasts_s: Duration until it is done or fails.
-        metres: Distance driven by its end, by odometry.
-        path: Corners in local metres; empty for an action.
-        reach: Fraction of the path covered by its end, 0 to 1.
-        action_j: Energy of the action in joules, spread evenly over its duration, or over the metres on which an
-            implement is on.
-        on: Those parts of the whole path, as metres from its begin.
-        strays_m: Greatest distance in metres to the right of the path, in its middle.
-        meets: Hindrance that ends it.
-        turns_s: Seconds before and after the path in which the robot turns on the spot.
-        heading_deg: Heading at its end, in degrees clockwise from north; None for that of the path there.
-        docks: Connected to the charger after it succeeded; None for no change.
-    """
-
-    start_s: float
-    lasts_s: float
-    outcome: GoalState
-    metres: float = 0.0
-    path: tuple[Point, ...] = ()
-    reach: float = 1.0
-    action_j: float = 0.0
-    on: tuple[tuple[float, float], ...] = ()
-    readings: Mapping[str, float] = field(default_factory=dict)
-    what: str = ""
-    fault: GoalFault = "none"
-    strays_m: float = 0.0
-    meets: Hindrance | None = None
-    turns_s: tuple[float, float] = (0.0, 0.0)
-    heading_deg: float | None = None
-    docks: bool | None = None
-
-    def cut(self, part: float) -> _Course:
-        """Return the course, failed after this fraction of its path, or of an action."""
-        before_s, after_s = self.turns_s
-        return replace(
-            self,
-            lasts_s=(before_s if part > 0.0 else 0.0) + part * (self.lasts_s - before_s - after_s),
-            outcome="failed",
-            metres=part * self.metres,
-            reach=part * self.reach,
-            action_j=self.action_j if self.on else part * self.action_j,
-            readings={},
-            meets=None,
-            turns_s=(before_s if part > 0.0 else 0.0, 0.0),
-            heading_deg=None,
-            docks=None,
-        )
-
-    def moved(self, done: float) -> float:
-        """Return the fraction of the path, or of an action, that is done at a fraction of the time."""
-        if self.turns_s == (0.0, 0.0):
-            return done
-        before_s, after_s = self.turns_s
-        moves_s = self.lasts_s - before_s - after_s
-        if done >= 1.0 or moves_s <= 0.0:
-            return 1.0 if done * self.lasts_s >= before_s else 0.0
-        return min(1.0, max(0.0, (done * self.lasts_s - before_s) / moves_s))
-
-    def facing(self, done: float) -> float | None:
-        """Return the heading at a fraction of the time; None if the path has no length."""
-        if done >= 1.0 and self.heading_deg is not None:
-            return self.heading_deg
-        here = _along(self.path, self.reach * self.moved(done))
-        k = next((k for k, leg in enumerate(itertools.pairwise(self.path)) if _is_between(here, *leg)), -2)
-        return last_heading(self.path[: k + 2] if k >= 0 else self.path)
-
-    def joules(self, done: float) -> float:
-        """Return the energy of the action up to a fraction of the course."""
-        if not self.on:
-            return self.moved(done) * self.action_j
-        at_m = self.moved(done) * self.reach * sum(math.dist(a, b) for a, b in itertools.pairwise(self.path))
-        worked_m = sum(max(0.0, min(end, at_m) - begin) for begin, end in self.on)
-        return self.action_j * min(1.0, worked_m / total_m(self.on))
-
-    def at(self, done: float) -> Point:
-        """Return the position of the robot after a fraction of the course."""
-        part = self.reach * self.moved(done)
-        x, y = _along(self.path, part)
-        away_m = self.strays_m * max(0.0, 1.0 - abs(part - 0.5) / _STRAYS)
-        if away_m == 0.0:
-            return (x, y)
-        (x0, y0), (x1, y1) = (_along(self.path, min(1.0, max(0.0, part + step))) for step in (-_STEP, _STEP))
-        length = math.hypot(x1 - x0, y1 - y0)
-        return (x, y) if length == 0.0 else (x + away_m * (y1 - y0) / length, y - away_m * (x1 - x0) / length)
-
-    def done_at(self, now: float) -> float:
-        """Return the fraction of the course that is done, 0 to 1."""
-        if now >= self.start_s + self.lasts_s - EPSILON_S:
-            return 1.0
-        return max(0.0, now - self.start_s) / self.lasts_s
 
 
 class SimulatedDriver:
@@ -153,6 +51,10 @@ class SimulatedDriver:
         clock: Mission clock; only the mission advances it.
         rng: Generator for leg costs and for readings that the world leaves open.
         yaw_tolerance_deg: Degrees short of the heading of a drive at which it stops turning.
+
+    In a world with :class:`~fieldhand.execution.drivers.simulation.world.Localisation`, :meth:`position` is that of a
+    fix, :meth:`pose` the one by which it steers, and :meth:`true_position` where it is. All that happens to it depends
+    on the latter.
 
     Raises:
         WorldError: The world does not fit the site or the robot.
@@ -183,7 +85,11 @@ class SimulatedDriver:
         self._charged_s = self._begun_s
         start = start_place(drives_for(site, robot))
         self._xy: Point = start.stand or start.xy
-        self._course: _Course | None = None
+        self._tolerance_m = world.goal_tolerance_m
+        self._error = PositionError(world.localisation, lambda: self._truth.seed)
+        #: Metres east and north from where it is to where it believes to be.
+        self._off: Point = (0.0, 0.0)
+        self._course: GoalCourse | None = None
         self._result = Progress(state="idle")
         self._lost: list[tuple[float, str]] = []
         #: Power in watts of implements that are on without being part of a goal, by action, and since when.
@@ -200,16 +106,21 @@ class SimulatedDriver:
         self._begin()
         self._docked = False
         alpha = self._robot.leg_cost.alpha if goal.work is None else 1.0  # a given path is followed exactly
-        cost = goal.length_m * (alpha + self._rng.exponential(1.0 - alpha) if alpha < 1.0 else 1.0)
-        pace = cost / goal.speed_m_s / goal.length_m if goal.length_m > 0 else 0.0  # seconds per metre of the path
+        steered, length_m = self._steered(goal)
+        cost = length_m * (alpha + self._rng.exponential(1.0 - alpha) if alpha < 1.0 else 1.0)
+        errors = self._error.along(steered, self._off, cost)
+        path = apart(steered, errors)
+        length_m = length_m if path is steered else _length_m(path)
+        pace = cost / goal.speed_m_s / length_m if length_m > 0 else 0.0  # seconds per metre of the path
         now_s = self._clock.now() - self._begun_s
-        turns_s, heading = self._turns(goal)
-        course = whole = _Course(
+        turns_s, heading = self._turns(goal, path)
+        course = whole = GoalCourse(
             start_s=self._clock.now(),
             lasts_s=cost / goal.speed_m_s + sum(turns_s),
             outcome="succeeded",
             metres=cost,
-            path=goal.path_m,
+            path=path,
+            errors=errors,
             turns_s=turns_s,
             heading_deg=heading,
         )
@@ -219,29 +130,42 @@ class SimulatedDriver:
             course = whole = replace(course, strays_m=self._truth.strays_by_m(goal.place))
         if not self.lost() and (what := self._truth.drive_fails(goal.place)):
             course = replace(course.cut(0.5), what=what, fault="failed")
-        if goal.work is not None and (failing := self._truth.implement_fails(goal.work, goal.path_m)) is not None:
+        if goal.work is not None and (failing := self._truth.implement_fails(goal.work, path)) is not None:
             part, what = failing
             course = replace(whole.cut(part), what=what, fault="implement") if part <= course.reach else course
         met: list[tuple[Hindrance, GoalFault]] = []
         now_s += turns_s[0]
-        if (hindrance := self._truth.obstacle(goal.path_m, lambda metres: now_s + pace * metres)) is not None:
-            near = hindrance.recovers and goal.length_m - hindrance.at_m <= NEAR_M
+        if (hindrance := self._truth.obstacle(path, lambda metres: now_s + pace * metres)) is not None:
+            near = hindrance.recovers and length_m - hindrance.at_m <= NEAR_M
             met.append((hindrance, "occupied" if near else "blocked"))
-        if (hindrance := self._truth.lost_on(goal.path_m)) is not None:
+        if (hindrance := self._truth.lost_on(path)) is not None:
             met.append((hindrance, "lost"))
         if met:
             hindrance, fault = min(met, key=lambda pair: pair[0].at_m)
-            part = min(1.0, hindrance.at_m / goal.length_m) if goal.length_m > 0 else 0.0
+            part = min(1.0, hindrance.at_m / length_m) if length_m > 0 else 0.0
             if part <= course.reach:
                 course = replace(whole.cut(part), what=hindrance.what, fault=fault, meets=hindrance)
         self._set_out(course)
 
-    def _turns(self, goal: DriveGoal) -> tuple[tuple[float, float], float | None]:
+    def _steered(self, goal: DriveGoal) -> tuple[tuple[Point, ...], float]:
+        """Return the path along which the robot believes to drive, and its length in metres.
+
+        It is that of the goal in a world in which the robot reaches its goals exactly. Otherwise it begins where the
+        robot believes to be.
+        """
+        if not self._tolerance_m and not self._error.exists:
+            return goal.path_m, goal.length_m
+        x, y = self._true_xy()
+        path = ((x + self._off[0], y + self._off[1]), *goal.path_m[1:])
+        path = until_near_end(path, self._tolerance_m) if self._tolerance_m else path
+        return path, _length_m(path)
+
+    def _turns(self, goal: DriveGoal, path: tuple[Point, ...]) -> tuple[tuple[float, float], float | None]:
         """Return the seconds of turning on the spot before and after a drive, and the heading at its end.
 
         A robot that does not turn on the spot ends along its path, or as it is wanted within a right angle of it.
         """
-        first, last = first_heading(goal.path_m), last_heading(goal.path_m)
+        first, last = first_heading(path), last_heading(path)
         here = self._heading_deg if last is None else last
         wanted = here if goal.heading_deg is None else goal.heading_deg
         if (
@@ -257,7 +181,7 @@ class SimulatedDriver:
             wanted = (wanted - math.copysign(left, (wanted - here + 180.0) % 360.0 - 180.0)) % 360.0
         return seconds, wanted
 
-    def _with_implement(self, course: _Course, goal: DriveGoal, work: StretchWork) -> _Course:
+    def _with_implement(self, course: GoalCourse, goal: DriveGoal, work: StretchWork) -> GoalCourse:
         """Return a course with the time and energy of an implement."""
         implement = self._robot.action[work.action].implement
         on_m = total_m(work.on)
@@ -271,9 +195,9 @@ class SimulatedDriver:
         self._begin()
         action = self._robot.doable[goal.action]
         # A lost robot makes no capture, so none is counted.
-        readings, what = ({}, "") if self.lost() else self._truth.capture(goal.action, goal.place)
+        readings, what = ({}, "") if self.lost() else self._truth.capture(goal.action, self._reached(goal.place))
         self._set_out(
-            _Course(
+            GoalCourse(
                 start_s=self._clock.now(),
                 lasts_s=action.duration_s,
                 outcome="failed" if what else "succeeded",
@@ -284,6 +208,17 @@ class SimulatedDriver:
                 docks={DOCK: True, UNDOCK: False}.get(goal.action) if not what else None,
             )
         )
+
+    def _reached(self, place: Place) -> Place:
+        """Return the place at which a capture is made by a robot that believes to make it at another."""
+        if self._off == (0.0, 0.0) or place.kind != "tree":
+            return place
+        xy = place.x - self._off[0], place.y - self._off[1]
+        away = np.hypot(*(self._site.xy - xy).T)
+        if away.min() <= self._site.spacing_m:
+            return self._site.trees[int(away.argmin())].place
+        ((lat, lon),) = self._site.projection.lat_lon([xy])
+        return Place.of_robot(xy, lat=lat, lon=lon)
 
     def switch(self, action: str, *, on: bool) -> str:
         """Switch an implement outside of a goal, as an external client does; return why that failed, or an empty text.
@@ -314,7 +249,7 @@ class SimulatedDriver:
         return self._truth.events.values(self._clock.now() - self._begun_s)
 
     def poll(self) -> Progress:
-        self._truth.events.note(self._clock.now() - self._begun_s, self._at)
+        self._truth.events.note(self._clock.now() - self._begun_s, self._true_xy)
         course = self._course
         if course is None:
             return self._result
@@ -343,18 +278,44 @@ class SimulatedDriver:
         stop = self._truth.stop
         if stop is not None:
             over_s = min(over_s, self._begun_s + stop.at_s)
-        if self._course.strays_m:  # whoever watches its position looks as often as a robot reports it
+        if self._course.strays_m or self._course.errors:  # whoever watches looks as often as a robot reports it
             over_s = min(over_s, self._clock.now() + _REPORTED_S)
         return max(0.0, over_s - self._clock.now())
 
-    def _at(self) -> Point:
+    def _true_xy(self) -> Point:
         """Return where it is, in local metres."""
         if self._course is None or not self._course.path:
             return self._xy
         return self._course.at(self._course.done_at(self._clock.now()))
 
+    def _error_now(self) -> Point:
+        course = self._course
+        return self._off if course is None or not course.path else course.error(course.done_at(self._clock.now()))
+
     def position(self) -> Position:
-        x, y = self._at()
+        return self._placed(self._error.of_fix(self._error_now(), self._clock.now() - self._begun_s))
+
+    def pose(self) -> Position:
+        """Return the position by which it steers."""
+        return self._placed(self._error_now())
+
+    def true_position(self) -> Position:
+        """Return where it is."""
+        return self._placed((0.0, 0.0))
+
+    @property
+    def noise_m(self) -> float:
+        """Standard deviation of each fix in metres, east and north."""
+        return self._error.noise_m
+
+    @property
+    def goal_tolerance_m(self) -> float:
+        """Distance in metres from its goal at which a drive ends."""
+        return self._tolerance_m
+
+    def _placed(self, error: Point) -> Position:
+        x, y = self._true_xy()
+        x, y = x + error[0], y + error[1]
         ((lat, lon),) = self._site.projection.lat_lon([(x, y)])
         course, heading = self._course, self._heading_deg
         if course is not None and course.path:
@@ -393,7 +354,7 @@ class SimulatedDriver:
 
     def state(self) -> SimulationState:
         """Return the state from which a new driver continues; a running goal is dropped."""
-        here = self.position()
+        here, (east, north) = self.true_position(), self._error_now()
         captures, struck = self._truth.counts()
         return SimulationState(
             seconds=self._clock.now() - self._begun_s,
@@ -408,6 +369,8 @@ class SimulatedDriver:
             met=self._truth.events.met,
             docked=self._docked,
             heading_deg=here.heading_deg,
+            off_east_m=east,
+            off_north_m=north,
         )
 
     def restore(self, state: SimulationState) -> None:
@@ -423,6 +386,7 @@ class SimulatedDriver:
         self._begun_s = self._clock.now() - state.seconds
         self._charge, self._charged_s = state.charge_percent, self._clock.now()
         self._xy, self._course, self._result = (state.x, state.y), None, Progress(state="idle")
+        self._off = state.off_east_m, state.off_north_m
         self._lost, self._docked, self._heading_deg = list(state.lost), state.docked, state.heading_deg
         self._truth.restore(state.values_seed, state.captures, state.struck)
         self._truth.events.restore(state.met)
@@ -443,7 +407,7 @@ class SimulatedDriver:
         self._charge, self._charged_s = self._left(), self._clock.now()
         self._load_j, self._loaded_s = 0.0, self._clock.now()
 
-    def _set_out(self, course: _Course) -> None:
+    def _set_out(self, course: GoalCourse) -> None:
         """Start a course, shortened if the robot gets lost or its battery runs empty."""
         begins_s = course.start_s - self._begun_s
         lost_s = [
@@ -459,7 +423,7 @@ class SimulatedDriver:
             course = replace(course.cut(part), what=message("the battery is empty", context="log"), fault="empty")
         self._course = course
 
-    def _lasting(self, course: _Course) -> float:
+    def _lasting(self, course: GoalCourse) -> float:
         """Return the fraction of a course for which the battery lasts, 0 to 1."""
         low, high = 0.0, 1.0
         for _ in range(60):
@@ -467,11 +431,13 @@ class SimulatedDriver:
             low, high = (middle, high) if self._used(course, middle) <= self._charge else (low, middle)
         return low
 
-    def _finish(self, course: _Course, state: GoalState, done: float, what: str, fault: GoalFault = "none") -> Progress:
+    def _finish(
+        self, course: GoalCourse, state: GoalState, done: float, what: str, fault: GoalFault = "none"
+    ) -> Progress:
         self._charge = max(0.0, self._charge - self._used(course, done))
         self._charged_s = course.start_s + done * course.lasts_s
         if course.path:
-            self._xy = course.at(done)
+            self._xy, self._off = course.at(done), course.error(done)
             facing = course.facing(done)
             self._heading_deg = self._heading_deg if facing is None else facing
         if course.docks is not None and state == "succeeded":
@@ -487,7 +453,7 @@ class SimulatedDriver:
         )
         return self._result
 
-    def _used(self, course: _Course, done: float) -> float:
+    def _used(self, course: GoalCourse, done: float) -> float:
         """Return the battery consumption in percent of a fraction of a course."""
         used = self._robot.percent(course.moved(done) * course.metres, done * course.lasts_s, course.joules(done))
         return self._drained(used, course.start_s, course.start_s + done * course.lasts_s)
@@ -497,19 +463,5 @@ class SimulatedDriver:
         return percent * self._truth.drain(from_s - self._begun_s, to_s - self._begun_s)
 
 
-def _is_between(point: Point, a: Point, b: Point) -> bool:
-    """Return True if a point of a path lies on this leg of it."""
-    return math.dist(a, point) + math.dist(point, b) <= math.dist(a, b) + EPSILON_S and math.dist(a, b) > 0.0
-
-
-def _along(path: tuple[Point, ...], part: float) -> Point:
-    """Return the point at a fraction of a path's length, 0 to 1."""
-    lengths = [math.dist(a, b) for a, b in itertools.pairwise(path)]
-    left = part * sum(lengths)
-    if part >= 1.0:
-        return path[-1]
-    for (ax, ay), (bx, by), length in zip(path[:-1], path[1:], lengths, strict=True):
-        if length > 0 and left <= length:
-            return (ax + (bx - ax) * left / length, ay + (by - ay) * left / length)
-        left -= length
-    return path[-1]
+def _length_m(path: tuple[Point, ...]) -> float:
+    return sum(math.dist(a, b) for a, b in itertools.pairwise(path))

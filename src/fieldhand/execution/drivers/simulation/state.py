@@ -22,6 +22,7 @@ class SimulationState:
         met: When, in seconds, the robot came to events of its world that last for a while: (number, time).
         docked: True if it is connected to its charger.
         heading_deg: Heading in degrees clockwise from north; None if it has not moved yet.
+        off_east_m, off_north_m: Metres from where it is to where it believes to be.
     """
 
     seconds: float
@@ -36,3 +37,5 @@ class SimulationState:
     met: tuple[tuple[int, float], ...] = ()
     docked: bool = False
     heading_deg: float | None = None
+    off_east_m: float = 0.0
+    off_north_m: float = 0.0

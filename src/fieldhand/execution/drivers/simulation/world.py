@@ -237,6 +237,23 @@ class ScriptedEvent:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Localisation:
+    """Error of the position that the robot knows, by which it steers.
+
+    Attributes:
+        drift_m_per_100_m: Metres by which the error grows per 100 m driven.
+        toward_deg: Its direction in degrees clockwise from north; None to draw it by the seed.
+        noise_m: Standard deviation of each fix in metres, east and north.
+        fix_drifts: False if fixes show where the robot is, and only the pose by which it steers drifts.
+    """
+
+    drift_m_per_100_m: float = 0.0
+    toward_deg: float | None = None
+    noise_m: float = 0.0
+    fix_drifts: bool = True
+
+
+@dataclass(frozen=True, kw_only=True)
 class World:
     """World of a simulation; what it leaves open is drawn from the profile and the seed.
 
@@ -246,6 +263,8 @@ class World:
         seed: Random seed, unless the run gives one.
         charge_percent: Battery charge at the start.
         meter_step_percent: Resolution of the battery meter in percent; 0 for the exact charge.
+        goal_tolerance_m: Distance from its goal at which a drive ends, by the position that the robot knows.
+        localisation: Error of that position; None for a robot that knows where it is.
         begins: Time of day when a mission begins, with its zone; None for a robot without a wall clock.
         source: File name, for messages.
         data: Bytes of the file; None for a world that was not read from a file.
@@ -257,6 +276,8 @@ class World:
     seed: int = 0
     charge_percent: float = 100.0
     meter_step_percent: float = 0.0
+    goal_tolerance_m: float = 0.0
+    localisation: Localisation | None = None
     begins: datetime | None = None
     source: str = "world"
     data: bytes | None = field(default=None, repr=False, compare=False)

@@ -22,7 +22,7 @@ from pydantic import (
 from pydantic_core import ErrorDetails
 
 from fieldhand.errors import WorldError
-from fieldhand.execution.drivers.simulation.world import Truth, World
+from fieldhand.execution.drivers.simulation.world import Localisation, Truth, World
 from fieldhand.execution.drivers.simulation.world_events import ScriptedEventModel
 from fieldhand.execution.drivers.simulation.world_faults import AnyFault, FaultModel, Strict, TreeRefModel
 from fieldhand.files import FileFault, read_file
@@ -63,6 +63,19 @@ class TruthModel(Strict):
         return Truth(default=default, trees=tuple((t.reference(), float(t.value)) for t in self.trees))
 
 
+class LocalisationModel(Strict):
+    """Error of the position that the robot knows."""
+
+    drift_m_per_100_m: Annotated[float, Field(ge=0, le=100, allow_inf_nan=False)] = 0.0
+    toward_deg: Annotated[float, Field(ge=0, lt=360, allow_inf_nan=False)] | None = None
+    noise_m: Annotated[float, Field(ge=0, le=100, allow_inf_nan=False)] = 0.0
+    fix_drifts: StrictBool = True
+
+    def localisation(self) -> Localisation:
+        """Return the error for execution."""
+        return Localisation(**self.model_dump())
+
+
 _KINDS_OF_FAULT: dict[str, type[BaseModel]] = {
     get_args(model.model_fields["fault"].annotation)[0]: model for model in get_args(AnyFault)
 }
@@ -84,6 +97,8 @@ class WorldModel(Strict):
     seed: Annotated[StrictInt, Field(ge=0)] = 0
     charge_percent: Annotated[float, Field(gt=0, le=100, allow_inf_nan=False)] = 100.0
     meter_step_percent: Annotated[float, Field(ge=0, le=10, allow_inf_nan=False)] = 0.0
+    goal_tolerance_m: Annotated[float, Field(ge=0, le=100, allow_inf_nan=False)] = 0.0
+    localisation: LocalisationModel | None = None
     begins: Annotated[AwareDatetime, AfterValidator(_of_our_time)] | None = None
 
 
@@ -148,6 +163,8 @@ def parse_world(content: Mapping[str, Any], *, source: str = "world") -> World:
         seed=model.seed,
         charge_percent=model.charge_percent,
         meter_step_percent=model.meter_step_percent,
+        goal_tolerance_m=model.goal_tolerance_m,
+        localisation=None if model.localisation is None else model.localisation.localisation(),
         begins=model.begins,
         source=source,
     )
@@ -271,6 +288,8 @@ def _keys_at(problem: ErrorDetails, path: list[str]) -> list[str]:
     inner: type[BaseModel] = WorldModel
     if path[0] == "readings":
         inner = TruthModel if len(path) == 3 else TreeValueModel
+    elif path[0] == "localisation" and len(path) > 1:
+        inner = LocalisationModel
     elif path[0] == "events" and len(path) > 2:
         inner = TreeRefModel if "at" in path[2:-1] else ScriptedEventModel
     elif path[0] == "faults":

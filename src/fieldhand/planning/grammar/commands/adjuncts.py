@@ -11,8 +11,9 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Adjunct, Clause, once
 from fieldhand.planning.grammar.meaning import LAST_THING, UNSAID_THING, CaptureCommand, Nominal, PlaceMeaning, Thing
 from fieldhand.planning.grammar.places.counted import row_of_all
-from fieldhand.planning.grammar.places.groups import of_each_kind
+from fieldhand.planning.grammar.places.groups import EachKind, of_each_kind
 from fieldhand.planning.grammar.places.nouns import Comparison, tests_of, that_pass
+from fieldhand.planning.grammar.places.numbers import VAGUE_NUMBERS
 from fieldhand.planning.grammar.places.sampling import bare_points
 from fieldhand.planning.grammar.places.vague import as_many_of_best
 from fieldhand.planning.grammar.words import Lex
@@ -252,6 +253,27 @@ def chosen_at_random(site: Site) -> Adjunct:
     return Adjunct(_at_random, _Drawing(site), is_sentence=True)
 
 
+def _not_at_all(command: CaptureCommand, _: None) -> CaptureCommand | list[CaptureCommand] | None:
+    """Return a command at some of its places, whose number is open if it was not said."""
+    place = command.place
+    if place is None or place.per is not None or place.each or place.optional or place.shape not in ("several", "area"):
+        return None
+    counts = {one.count for one in command.things}
+    if place.count is not None or (place.shape == "area" and counts != {None}):
+        return command
+    if place.refers_back or not chooses_from_trees(place.selector) or len(counts) > 1:
+        return None
+    numbers = VAGUE_NUMBERS if counts <= {None, 1} else [n for n in counts if n is not None]
+    some = (PlaceMeaning(s.Take(count=n, of=place.selector), "several", count=n) for n in numbers)
+    return [replace(command, things=once(command.things), place=one, relation="at") for one in some]
+
+
+@construction("adjunct: NOTALL", cost=0.2)
+def not_at_all() -> Adjunct:
+    """Compose "not all of them" behind what is captured there."""
+    return Adjunct(_not_at_all, is_sentence=True)
+
+
 @construction("adjunct: ASMANY as_can", cost=0.2)
 def as_many_of_those() -> Adjunct:
     """Compose "as many as you can"."""
@@ -379,18 +401,18 @@ def _at_each_tree(command: CaptureCommand, _: None) -> CaptureCommand | None:
 class _Kinds:
     """An attribute whose values tell kinds of trees apart, and how many kinds the phrase names (0 if it names none)."""
 
-    named: tuple[Lex, int]
+    named: EachKind
     site: Site = field(compare=False)
 
 
 def _of_each_kind(command: CaptureCommand, kinds: _Kinds) -> list[CaptureCommand] | None:
     """Return a command at so many trees of each kind."""
     place = command.place
-    if place is None:
+    if place is None or (place.shape == "area" and place.per is None and chooses_from_trees(place.selector)):
         counts = {one.count or 1 for one in command.things}
         if len(counts) > 1 or any(one.plural and one.count is None for one in command.things):
             return None
-        some: s.Selector = s.Take(count=counts.pop(), of=s.Trees())
+        some: s.Selector = s.Take(count=counts.pop(), of=s.Trees() if place is None else place.selector)
         command = replace(command, things=once(command.things))
     elif place.shape in ("one", "several") and _is_uncounted(command):
         some = place.selector
@@ -444,13 +466,10 @@ def _one_per_tree(command: CaptureCommand, things: tuple[Thing, ...]) -> Capture
     return replace(command, place=replace(command.place, shape="several", each=command.place.each))
 
 
-@construction(
-    "adjunct: PER kind=ATTR", "adjunct: FOR kinds=each_kind", "adjunct: OF kinds=each_kind", cost=0.2, given=("site",)
-)
-def per_kind(site: Site, kind: Lex | None = None, kinds: tuple[Lex, int] | None = None) -> Adjunct | None:
+@construction("adjunct: kinds=per_kind", cost=0.2, given=("site",))
+def per_kind(kinds: EachKind, site: Site) -> Adjunct:
     """Compose "per variety" and "for each variety"."""
-    of = kinds if kind is None else (kind, 0)
-    return None if of is None else Adjunct(_of_each_kind, _Kinds(of, site), may_lead=True)
+    return Adjunct(_of_each_kind, _Kinds(kinds, site), may_lead=True)
 
 
 # Spread over a line or an area.

@@ -178,6 +178,14 @@ def so_many_found(n: int, test: Test) -> AllTests | None:
     return AllTests((test,), of_last=HowMany("ge", float(n)))
 
 
+@construction("readings_found: n=count READING [WHICH] [IS] test=predicate", cost=0.0)
+@construction("readings_found: n=count OFTHEM [WHICH] [IS] test=predicate", cost=0.0)
+@construction("readings_found: n=count TREE [WHICH] IS test=predicate", cost=0.0)
+def readings_found(n: int, test: Test) -> AllTests | None:
+    """Compose "three readings below 25 percent" behind "stop after"."""
+    return so_many_found(n, test)
+
+
 # --- precision --------------------------------------------------------------------------------------------------------
 
 

@@ -78,10 +78,11 @@ def by_numbers(
 
 
 @construction("capture: act=capture FULLSTOP adjunct=adjunct", cost=0.3)
-def adjunct_by_itself(act: CaptureCommand, adjunct: Adjunct, used: int) -> CaptureCommand | None:
+def adjunct_by_itself(act: CaptureCommand, adjunct: Adjunct, used: int) -> list[CaptureCommand] | None:
     """Compose "measure CO2 along row 4. Every tree." and "... at five yellow trees. Any five will do."."""
     changed = adjunct.change(act, adjunct.value) if adjunct.is_sentence else None
-    return replace(changed, used=used) if isinstance(changed, CaptureCommand) else None
+    ways = changed if isinstance(changed, list) else [changed]
+    return [replace(one, used=used) for one in ways if isinstance(one, CaptureCommand)] or None
 
 
 @construction(

@@ -758,6 +758,10 @@ def soon() -> str:
     "until: soon tests=tests [COMMA] halts",
     "until: halts soon tests=tests",
     "until: halts AT tests=first_tested",
+    "until: halts THEN tests=readings_found",
+    "until: halts AT tests=readings_found",
+    "until: halts WITH tests=readings_found",
+    "until: UNTIL tests=readings_found",
     "until: tests=first_tested [COMMA] halts [MISSION]",
     cost=0.3,
 )

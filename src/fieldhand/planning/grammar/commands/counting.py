@@ -56,6 +56,23 @@ def _counted(command: CaptureCommand, side: Side) -> CaptureCommand | None:
     return None if made == place.selector else replace(command, place=replace(place, selector=made))
 
 
+@construction("adjunct: [and_or_but] start=begin_with", cost=0.3)
+def beginning_with(start: int) -> Adjunct:
+    """Compose "Begin with the second one." behind every third tree."""
+    return Adjunct(_begun, start, of_place=True, is_sentence=True)
+
+
+def _begun(command: CaptureCommand, start: int) -> CaptureCommand | None:
+    """Return a command at every n-th tree from another one on; None if none is counted so, or from elsewhere."""
+    place = command.place
+    every = () if place is None else tuple(one for one in map(as_every_nth, place.selector.walk()) if one is not None)
+    if place is None or len(every) != 1 or every[0].start != 1:
+        return None
+    return replace(
+        command, place=replace(place, selector=swapped(place.selector, every[0], replace(every[0], start=start)))
+    )
+
+
 def _from_side(one: s.Selector, side: Side) -> s.Selector:
     """Return every n-th tree, or trees by their numbers in the row, counted from a side."""
     known = as_every_nth(one) or as_in_row(one)

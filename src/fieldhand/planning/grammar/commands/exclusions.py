@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.english.naming import Naming
 from fieldhand.planning.grammar.chart import Grammar, tokens_of
 from fieldhand.planning.grammar.meaning import (
+    THOSE_ROWS,
     CaptureCommand,
     Command,
     Connective,
@@ -19,12 +21,21 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
     Said,
 )
-from fieldhand.planning.grammar.places.exceptions import except_for, except_positions
+from fieldhand.planning.grammar.places.exceptions import drawn_from, except_for, except_positions
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.places.planted_rows import rows_out_of
 from fieldhand.planning.grammar.places.points import outside_zones
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import as_half, as_rows, chooses_from_trees, named_places, over, swapped
+from fieldhand.planning.selections import (
+    are_rows,
+    as_half,
+    as_rows,
+    as_zone,
+    chooses_from_trees,
+    named_places,
+    over,
+    swapped,
+)
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -212,6 +223,10 @@ def _is_every_second(command: Command) -> bool:
     if not isinstance(command, CaptureCommand | Lead) or command.place is None:
         return False
     parts = (*command.place.selector.walk(), *(() if command.place.per is None else command.place.per.walk()))
+    zones = [as_zone(one) for one in (() if command.place.per is None else command.place.per.members)]
+    numbers = [int(number) for one in zones if one is not None and (number := one.zone.split()[-1]).isdigit()]
+    if len(numbers) > 1 and {then - one for one, then in pairwise(numbers)} == {2}:
+        return True  # beds that are areas with a number
     return any(getattr(one, "every", getattr(one, "nth", 1)) == 2 for one in parts)
 
 
@@ -270,7 +285,8 @@ def _without(
         return replace(command, place=replace(whole, per=per), used=used)
     if (points := outside_zones(whole, out.place.selector)) is not None:
         return replace(command, place=points, used=used)
-    among, left_out = ids_of(whole.selector, site), ids_of(out.place.selector, site)
+    drawn = drawn_from(whole.selector) if whole.per is None else None
+    among, left_out = ids_of(drawn or whole.selector, site), ids_of(out.place.selector, site)
     if any(part.uses_records for part in out.place.selector.walk()):
         left_out, among, some = set(), among or set(), False  # what was done before may be known later only
     if among is None or left_out is None or (some and not among & left_out):
@@ -297,11 +313,19 @@ def left_out_of(command: CaptureCommand | Lead, out: Excluded, site: Site) -> Ca
 
 def _others(whole: PlaceMeaning, out: Excluded, site: Site) -> PlaceMeaning | None:
     """Return "the other trees" and "the other block" as those that are not left out; None for other places."""
+    rows_out = None if out.place is None else rows_out_of(out.place.selector, site) or out.place.selector
+    if rows_out is not None and are_rows(rows_out):  # "two plants in each of the others"
+        per = None if whole.per is None else swapped(whole.per, THOSE_ROWS, rows_out)
+        left = replace(whole, selector=swapped(whole.selector, THOSE_ROWS, rows_out), per=per)
+        if left != whole:
+            return left
     if out.place is not None and isinstance(whole.selector, s.NotVisited):
         return replace(whole, selector=s.Excluding(places=out.place.selector, of=whole.selector.of))
     if whole.like is None or out.place is None or whole.like.side or whole.like.kind not in ("", "rest", "half"):
         return None
     part = out.place.selector
+    if whole.like.kind == "rest" and whole.each and rows_out is not None and are_rows(rows_out):
+        return None  # "leave out the covered beds, and two pictures of each of the others": of each plant, or bed?
     if whole.like.kind == "rest":
         return replace(whole, like=None, selector=s.Excluding(places=part, of=whole.selector))
     if whole.shape != "area":

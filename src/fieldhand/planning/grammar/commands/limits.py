@@ -83,7 +83,7 @@ def _is_limit(most: Amount) -> bool:
     "limit: subject [MUST] [IS] most=at_most",
     "limit: CAPAT subject [AT] most=so_much",
     "limit: subject COMMA most=at_most",
-    "limit: [WITH] [subject] [IS] LIMITEDTO most=amount [GO]",
+    "limit: [WITH] subject [IS] LIMITEDTO most=amount [GO]",
     "limit: [at] [DET] UPPERLIMIT [IS] [OF] [COMMA] most=so_much",
     "limit: [at] [DET] most=amount UPPERLIMIT",
     "limit: BEFORE most=amount OVERDUE",
@@ -94,6 +94,12 @@ def _is_limit(most: Amount) -> bool:
 def limited_to(most: Amount, used: int) -> LimitClause | None:
     """Compose "within 500 m", "it must take no more than 20 minutes" and "time limit: 20 minutes"."""
     return LimitClause(most, False, used) if _is_limit(most) else None
+
+
+@construction("limit: [WITH] [IS] LIMITEDTO most=amount [GO]", cost=0.3)
+def less_than(most: Amount, used: int) -> LimitClause | None:
+    """Compose "under 500 m"; "below 30 percent" tells of readings, not of the battery."""
+    return None if most.unit == "percent" else limited_to(most, used)
 
 
 @construction(
@@ -358,6 +364,7 @@ def visits_at_most(n: int, used: int, word: Lex | None = None, check: Lex | None
     "visit_limit: VISIT limit=visit_limit",
     "visit_limit: TAKE limit=visit_limit",
     "visit_limit: MEASURE limit=visit_limit",
+    "visit_limit: WITH limit=visit_limit",
     "visit_limit: WHODOES limit=visit_limit",
     cost=0.0,
 )

@@ -164,7 +164,7 @@ def read_clauses(setting: Setting, said: Said, *, in_fragments: bool = False) ->
         NotComposed: The clauses do not fit together.
         Fork: They can be continued in several ways, and ``setting`` does not say in which.
     """
-    clauses, edits = as_meant(setting, with_intervals(at_compared(said.clauses)))
+    clauses, edits = as_meant(setting, with_intervals(at_compared(said.clauses), setting.site))
     if in_fragments and (whole := assembled(setting, clauses)) != clauses:
         clauses = whole
     elif in_fragments:

@@ -18,8 +18,10 @@ from fieldhand.planning.selections import (
     are_rows,
     are_several_rows,
     as_along_row,
+    as_excluding,
     as_in_row,
     as_some,
+    as_spread_points,
     as_zone,
     chooses_from_trees,
     counts_in_row,
@@ -196,6 +198,7 @@ def fitted(
     Raises:
         NotComposed: How many visits are meant is unclear.
     """
+    _require_whole_ground(setting, place)
     if place.each and place.shape == "several" and place.per is None:
         return place, things
     counts = {thing.count for thing in things}
@@ -220,6 +223,17 @@ def fitted(
     if count == 1 or count == place.count:
         return place, _once(things)
     return setting.either("so many at each place, or in all?", used, _at_each_or_in_all(setting, place, things, count))
+
+
+def _require_whole_ground(setting: Setting, place: PlaceMeaning) -> None:
+    """Raise unless points of ground without plants are those of a zone as a whole."""
+    for part in place.selector.walk():
+        rest = as_excluding(part)
+        if rest is not None and (as_spread_points(rest.of) is not None or bare_zone(rest.of, setting.site)):
+            raise NotComposed(
+                message("so many points of bare ground are spread over all of it", context="fault"),
+                advice=message("say 'on a 10 m grid over the meadow except the wet corner', or 'every 10 m'"),
+            )
 
 
 def _once(things: tuple[Thing, ...]) -> tuple[Thing, ...]:

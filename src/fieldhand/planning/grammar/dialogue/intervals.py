@@ -15,6 +15,7 @@ from fieldhand.planning.grammar.dialogue.state import (
     with_assumption,
 )
 from fieldhand.planning.grammar.meaning import (
+    LAST_THING,
     Again,
     CaptureCommand,
     Command,
@@ -26,19 +27,21 @@ from fieldhand.planning.grammar.meaning import (
     wait_seconds,
 )
 from fieldhand.planning.grammar.places.sampling import bare_zone
+from fieldhand.site.model import Site
 
 #: Maximum number of captures at intervals.
 _MOST = 50
 
 
-def with_intervals(clauses: Sequence[LinkedCommand]) -> tuple[LinkedCommand, ...]:
+def with_intervals(clauses: Sequence[LinkedCommand], site: Site) -> tuple[LinkedCommand, ...]:
     """Return clauses with what one of them says of the intervals of the next, or of the one before it.
 
     "Stay for an hour and read CO2 every ten minutes" reads it for an hour, "every ten minutes, six times in all" six
-    times, and "wait ten minutes and do it again" repeats it after a wait.
+    times, and "wait ten minutes and do it again" repeats it after a wait. "Three readings at the trough and three at
+    the mast, a minute apart" has pauses at both places.
     """
     found: list[LinkedCommand] = []
-    for clause in clauses:
+    for clause in _rested_alike(clauses, site):
         merged = _together(found[-1].command, clause.command) if found else None
         if merged is None:
             found.append(clause)
@@ -48,6 +51,48 @@ def with_intervals(clauses: Sequence[LinkedCommand]) -> tuple[LinkedCommand, ...
         if isinstance(clause.command, Total):
             found.append(clause)
     return tuple(found)
+
+
+def _rested_alike(clauses: Sequence[LinkedCommand], site: Site) -> Sequence[LinkedCommand]:
+    """Return clauses with the pauses of captures that are not named, as those of the named captures before them."""
+    made = list(clauses)
+    for at, clause in enumerate(clauses):
+        seconds = _pause(clause.command)
+        if seconds is None:
+            continue
+        first = at - 1
+        while first > 0 and _unrested(made[first].command, site) == LAST_THING:
+            first -= 1
+        action = _unrested(made[first].command, site) if first >= 0 else ""
+        if action in ("", LAST_THING):
+            continue
+        named = made[first].command
+        for k in range(first, at + 1):
+            command = made[k].command
+            if isinstance(named, CaptureCommand) and isinstance(command, CaptureCommand):
+                times = (command.things[0].count or 1) * command.times if k < at else len(command.things) // 2 + 1
+                once = replace(named.things[0], count=1, plural=False)
+                things = rested_things((once,), times, seconds)
+                made[k] = replace(made[k], command=replace(command, things=things, times=1, relation="at"))
+    return made
+
+
+def _pause(command: Command) -> float | None:
+    """Return the seconds between captures that are not named; None for another command."""
+    if not isinstance(command, CaptureCommand) or command.things[0].action != LAST_THING or len(command.things) < 3:
+        return None
+    seconds = wait_seconds(command.things[1].action)
+    known = seconds and rested_things(command.things[:1], len(command.things) // 2 + 1, seconds) == command.things
+    return seconds if known else None
+
+
+def _unrested(command: Command, site: Site) -> str:
+    """Return the action of several captures at one place; empty for another command."""
+    if not isinstance(command, CaptureCommand) or len(command.things) != 1 or command.spacing is not None:
+        return ""
+    (thing,), place = command.things, command.place
+    alone = place is not None and (place.shape == "one" or bool(bare_zone(place.selector, site)))
+    return thing.action if alone and (thing.count or 1) * command.times > 1 else ""
 
 
 def _together(first: Command, then: Command) -> CaptureCommand | Again | None:

@@ -110,6 +110,7 @@ def _openings() -> frozenset[str]:
     phrases = [phrase for name in ("participles", "works", "actives") for of in known[name].values() for phrase in of]
     single = {word for phrase in phrases for word in phrase.split()} - {"not", "to", "at", "out", "on", "up"}
     more = {"did", "didn't", "could", "couldn't", "failed", "wrong", "with", "without", "no", "have", "has", "work"}
+    more |= {"still", "outstanding", "left", "finished"}
     return frozenset({*single, *more, "taken", "took", "got", "made", "filmed", "scanned", "recorded", "clipped"})
 
 
@@ -172,6 +173,8 @@ def _work(
         case "with":
             denied = bool({"no", "not", "without", "lacking", "lack", "don't"} & {*said["with"].split()})
             return EarlierWork(named, negated=denied, needs_period=True)
+        case "still":
+            return EarlierWork((ANY_WORK,), outcomes=("left_out",))
         case _:
             return _failed(said, named, verbs)
 

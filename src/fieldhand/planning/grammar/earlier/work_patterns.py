@@ -33,6 +33,10 @@ _FAILED = (
     r"(?:failed|went wrong|did not work(?: out)?|didn't work(?: out)?|did not succeed|didn't succeed"
     r"|(?:was|were) unsuccessful|gave an error)"
 )
+_LEFT = (
+    r"(?:still (?:missing|outstanding|to do|to be done|to go|pending|undone|waiting|left over|left|due|unfinished|open)"
+    r"|outstanding|left over|left unfinished|not finished)"
+)
 _SOMETHING = r"(?:the|a|an|any|our|your) (?:mission|robot|work|visit|measurement|reading|sensor|camera|action)"
 _WITH = (
     r"with no|with|without|having no|having|have no|have|has no|had no|had|have not got|lacking|lack|do not have"
@@ -68,6 +72,7 @@ def work_patterns(nouns: tuple[str, ...], verbs: tuple[str, ...]) -> tuple[tuple
         ("where", rf"(?:where|whose|at which|of which|from which) (?P<no>no )?{what} {_LEAD}{made}{_TAIL}"),
         ("with", rf"(?:(?:that|which) )?(?P<with>{_WITH}) {what}(?: (?:from|of|in|on))?"),
         ("failed", rf"(?:that|which|where) (?:(?:it|they|something|{_SOMETHING}) )?(?:has |have |had )?{_FAILED}"),
+        ("still", rf"(?:(?:that|which) )?(?:(?:are|is|were|was) )?{_LEFT}"),
         ("failed", rf"where {what} (?:has |have |had )?{_FAILED}"),
         ("failed", rf"(?:that|which) (?:could not be|couldn't be|failed to be) (?P<verb>{part})"),
     )

@@ -286,16 +286,33 @@ def _every(chosen: Chosen, n: int) -> Chosen | None:
 # Words behind the noun.
 
 
+@construction("in_their_row: in_ DET ROW", "in_their_row: OF DET ROW", "in_their_row: in_ EACH ROW", cost=0.0)
+@construction("in_their_row: OF EACH ROW", "in_their_row: INEACH", cost=0.0)
+def in_their_row() -> str:
+    """Compose "in the row" behind the tree from which others are counted."""
+    return "row"
+
+
+@construction("begins_at: STARTING", "begins_at: STARTWITH", "begins_at: COUNTED", cost=0.0)
+def begins_at() -> str:
+    """Compose "starting with"."""
+    return "begin"
+
+
 @construction(
-    "chosen: chosen=chosen [COMMA] STARTING [DET] rank=ORD [TREE]",
-    "chosen: chosen=chosen [COMMA] STARTING [DET] rank=ORD ONE",
-    "chosen: chosen=chosen [COMMA] COUNTED [DET] rank=ORD [TREE]",
-    "chosen: chosen=chosen [COMMA] COUNTED [DET] rank=ORD ONE",
-    cost=0.1,
+    "begin_with: begins_at [DET] rank=ORD [TREE] [in_their_row]",
+    "begin_with: begins_at [DET] rank=ORD ONE [in_their_row]",
+    cost=0.0,
 )
-def starting_with(chosen: Chosen, rank: Lex) -> Chosen | None:
+def begin_with(rank: Lex) -> int:
+    """Compose "starting with the second one"."""
+    return int(rank.value)
+
+
+@construction("chosen: chosen=chosen [COMMA] start=begin_with", cost=0.1)
+def starting_with(chosen: Chosen, start: int) -> Chosen | None:
     """Compose "every third tree, starting with the second one"."""
-    return _with_nth(chosen, start=rank.value)
+    return _with_nth(chosen, start=start)
 
 
 @construction("chosen: chosen=chosen [COMMA] side=start", cost=0.1)
@@ -355,8 +372,20 @@ def so_many_of_them(chosen: Chosen, n: int) -> Chosen | None:
     return replace(chosen, count=n) if chosen.count is None and chosen.inner.plural and chosen.rank is None else None
 
 
+@construction("chosen: chosen=chosen COMMA choice=chosen_as", cost=0.1)
+def chosen_behind_a_comma(chosen: Chosen, choice: Choice) -> Chosen | None:
+    """Compose "trees, nearest to the charger"; ", chosen at random" is said of all before it."""
+    return None if choice.by == "random" else _with_choice(chosen, choice)
+
+
+@construction("chosen: chosen=chosen COMMA choice=chosen_as", cost=0.8)
+def drawn_behind_a_comma(chosen: Chosen, choice: Choice) -> Chosen | None:
+    """Compose "trees, chosen at random", of one description."""
+    return _with_choice(chosen, choice) if choice.by == "random" else None
+
+
 @construction(
-    "chosen: chosen=chosen [COMMA] choice=chosen_as",
+    "chosen: chosen=chosen choice=chosen_as",
     "chosen: chosen=chosen STANDS choice=chosen_as",
     "chosen: chosen=chosen COMMA DET ONE [STANDS] choice=chosen_as",
     cost=0.1,

@@ -171,6 +171,14 @@ def _at_end_near(of: s.Selector, run: Span, near: s.Selector, site: Site) -> lis
     return [PlaceMeaning(nearest, "one" if run[1] == 1 else "several", count=run[1])]
 
 
+def _numbered_in_area(inner: Nominal, numbers: TreeNumbers, site: Site) -> list[PlaceMeaning] | None:
+    """Return "plant number 8 in the cool section", of each row in which it may be."""
+    plain = is_description(inner.selector) and not inner.complete and rows_within(inner.selector) is None
+    if not plain or not all(name.isdigit() for name in numbers.trees) or any(n in site.by_id for n in numbers.trees):
+        return None
+    return trees_counted(inner, Positions(tuple(runs(numbers.trees)), counted_from=numbers.counted_from), site)
+
+
 def of_row_named_before(inner: Nominal, at: Positions | TreeNumbers) -> PlaceMeaning | None:
     """Return trees at some positions of a row that was named before them; None if the site itself may be meant."""
     if inner.selector != s.Trees() or inner.kind != "tree" or inner.single:
@@ -192,7 +200,7 @@ def trees_numbered(inner: Nominal, numbers: TreeNumbers, site: Site) -> list[Pla
     """Return trees with numbers in the rows of a description."""
     rows = inner.selector
     if not are_rows(rows):
-        return None
+        return _numbered_in_area(inner, numbers, site)
     count = len(numbers.trees) if is_one_row(rows) else None
     shape: Shape = "one" if count == 1 else "several"
     if numbers.counted_from == "usual" and not numbers.in_each_row:

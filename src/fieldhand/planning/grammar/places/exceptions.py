@@ -22,19 +22,24 @@ from fieldhand.planning.selections import (
     are_rows,
     are_several_rows,
     as_in_row,
+    as_quota,
+    as_random,
     as_some,
     as_where,
     blocks_of,
     centre_of,
     is_block,
+    is_by_attribute,
     is_end_of_site,
     is_in_block,
     is_one_row,
     is_whole_rows,
     named_places,
     over,
+    picked_from,
     picks_from_all,
     rows_of,
+    some_of,
     swapped,
 )
 from fieldhand.site.model import Site
@@ -76,7 +81,9 @@ def except_word(word: Lex | None = None) -> str | None:
     return "except" if word is None or "leaves_out" in word.features else None
 
 
-@construction("out: place=place", "out: in_ place=place", "out: which_is in_ place=place", cost=0.1)
+@construction(
+    "out: place=place", "out: in_ place=place", "out: which_is in_ place=place", "out: FROM place=place", cost=0.1
+)
 def places_out(place: PlaceMeaning) -> Omission:
     """Compose "the yellow trees" and "in the wet corner"."""
     return Omission(place=place)
@@ -158,6 +165,12 @@ def positions_out(positions: tuple[Span, ...], rows: s.Selector | None = None) -
     return Omission(positions=positions, rows=rows)
 
 
+@construction("out: n=count OFTHEM", cost=0.1)
+def some_of_them_out(n: int) -> Omission:
+    """Compose "two of them" behind "all leeks except"."""
+    return Omission(trees=(str(n),), or_so_many=True)
+
+
 @construction("out: DET chosen=bare", cost=0.0)
 def chosen_out(chosen: Chosen) -> Omission:
     """Compose "the three nearest to the charger"."""
@@ -209,10 +222,10 @@ def out_with_but(
 )
 def without(whole: PlaceMeaning, out: Omission, site: Site) -> list[PlaceMeaning] | None:
     """Compose "all trees except the yellow trees" and "row 3, the first two left out"."""
-    some = as_some(whole.selector)
-    if some is not None and whole.per is None:  # "any three trees except tree 12": three of the others
-        others = without(PlaceMeaning(some.of, "several"), out, site) or ()
-        return [replace(whole, selector=swapped(whole.selector, some.of, one.selector)) for one in others] or None
+    drawn = drawn_from(whole.selector)
+    if drawn is not None and whole.per is None:  # "any three trees except tree 12": three of the others
+        others = without(PlaceMeaning(drawn, "several"), out, site) or ()
+        return [replace(whole, selector=swapped(whole.selector, drawn, one.selector)) for one in others] or None
     if whole.shape not in ("several", "area") or whole.optional:
         return None
     if out.place is not None:
@@ -247,8 +260,8 @@ def _only_row_of(whole: PlaceMeaning, site: Site) -> s.Selector | None:
 
 
 def _ends_of_only_row(whole: PlaceMeaning, out: Omission, row: s.Selector) -> list[PlaceMeaning] | None:
-    """Return "every pumpkin except the two at the ends of the row"."""
-    if out.rows not in (None, s.RowOf(), row) or (out.rows is None and out.positions != BOTH_ENDS):
+    """Return "every pumpkin except the first" and "... except the two at the ends of the row"."""
+    if out.rows not in (None, s.RowOf(), row):
         return None
     parts = all_of([s.InRow(first=first, last=last, of=row) for first, last in out.positions])
     return [replace(whole, selector=s.Excluding(places=parts, of=whole.selector), shape="several")]
@@ -287,6 +300,8 @@ def _parts_out(whole: PlaceMeaning, out: Omission, site: Site) -> list[s.Selecto
     ways = numbered(out.trees, of, site) if out.as_trees or is_one_row(of) else []
     if of.relative and all(name.isdigit() for name in out.trees):
         ways.append(all_of(named))
+    if not ways and out.or_so_many and is_by_attribute(of) and not set(out.trees) & set(site.by_id):
+        return [some_of(of, int(number)) for number in out.trees if number.isdigit()]  # "all the leeks but three"
     if not ways and set(out.trees) < (ids_of(of, site) or set()):
         ways.append(all_of(named))
     return ways
@@ -353,6 +368,9 @@ def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site) -> PlaceMean
     """
     if whole.shape not in ("several", "area") or part.shape not in ("one", "several", "area"):
         return None
+    if (drawn := drawn_from(whole.selector)) is not None and whole.per is None:
+        others = except_for(PlaceMeaning(drawn, "several"), part, site)  # so many of each, or at random, of the others
+        return None if others is None else replace(whole, selector=swapped(whole.selector, drawn, others.selector))
     if whole.count is not None:
         if not set(named_places(part.selector) or (part.selector,)) < set(named_places(whole.selector)):
             return None
@@ -384,6 +402,12 @@ def except_for(whole: PlaceMeaning, part: PlaceMeaning, site: Site) -> PlaceMean
     return replace(whole, selector=selector, shape="several" if all_of_it else whole.shape)
 
 
+def drawn_from(selector: s.Selector) -> s.Selector | None:
+    """Return the trees of which a selector takes some, whichever these are; None for another selector."""
+    some = as_some(selector) or as_random(selector) or as_quota(selector)
+    return None if some is None else some.of
+
+
 def _is_counted_in_it(part: PlaceMeaning, whole: PlaceMeaning) -> bool:
     """Return True for "the two trees at its north end", of a row that is named before it."""
     counted = [as_in_row(one) for one in part.selector.members]
@@ -398,6 +422,10 @@ def all_but(part: PlaceMeaning) -> list[PlaceMeaning] | None:
         return None
     if as_some(part.selector) is not None or part.at_most is not None:
         return None
+    groups = {picked_from(one) or (rows_within(one) and getattr(one, "of", None)) for one in part.selector.members}
+    kind = groups.pop() if len(groups) == 1 else None
+    if kind is not None and is_by_attribute(kind):  # "all but the two tallest leeks": of the leeks
+        return [PlaceMeaning(s.Excluding(places=part.selector, of=kind), "several")]
     inside = next((one for one in part.selector.walk() if isinstance(one, AREAS)), None)
     wholes: Iterator[s.Selector] = iter([s.Trees()] if inside is None or part.shape == "area" else [inside, s.Trees()])
     return [PlaceMeaning(s.Excluding(places=part.selector, of=whole), "several") for whole in wholes]

@@ -52,8 +52,10 @@ def such(flag: Lex, inner: Nominal) -> list[Nominal] | None:
 
 
 @construction("nominal: flag=FLAG", cost=1.6)
-def such_ones(flag: Lex) -> list[Nominal]:
-    """Compose "two grafted" of "two grafted and two ungrafted plants"."""
+def such_ones(flag: Lex) -> list[Nominal] | None:
+    """Compose "two grafted" of "two grafted and two ungrafted plants"; "mildew" is no plant."""
+    if not flag.text.endswith(("ed", "en")):
+        return None
     return [Nominal(that_pass(test, s.Trees()), plural=True, unmarked=True) for test in is_so(flag)]
 
 

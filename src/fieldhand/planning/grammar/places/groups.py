@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import cast
 
 from fieldhand.places import selectors as s
@@ -17,6 +17,7 @@ from fieldhand.planning.selections import (
     as_random,
     as_some,
     as_top,
+    as_where,
     chooses_from_trees,
     is_by_attribute,
     is_description,
@@ -39,6 +40,7 @@ construction = GRAMMAR.construction
 
 #: Maximum number of kinds that are visited one after the other ("of each variety").
 _MOST_KINDS = 12
+_ANY_TREES = s.Trees()
 
 
 @construction("owned_by: [word=DET] inner=owner", cost=0.3, given=("site",))
@@ -181,6 +183,44 @@ def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[Place
     # "The first tree and the last tree of row 4": is the first that of the row, too?
     in_row = tuple(over(part, counted.of) if is_end_of_site(part) else part for part in parts)
     return [whole, replace(whole, selector=s.UnionOf(parts=in_row))]
+
+
+@construction("of_such: [DET] [n=count] [random=RANDOM] flag=FLAG", cost=0.0)
+def of_such(flag: Lex, n: int | None = None, random: Lex | None = None) -> list[PlaceMeaning]:
+    """Compose "six grafted" before "and six ungrafted Sungold plants"."""
+    kinds = [s.Where(attribute=name, test="eq", value=value) for name, value in flag.value]
+    if n is None:
+        return [PlaceMeaning(kind, "several") for kind in kinds]
+    chosen = [s.Take(count=n, of=kind) if random is None else s.RandomSample(count=n, of=kind) for kind in kinds]
+    return [PlaceMeaning(one, "one" if n == 1 else "several", count=n if n > 1 else None) for one in chosen]
+
+
+@construction("place: first=of_such AND second=place", "place: first=of_such AND [AT] second=place", cost=0.1)
+def such_and_such(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[PlaceMeaning] | None:
+    """Compose "six grafted and six ungrafted Sungold plants": both are Sungold."""
+    such = next(part for part in map(as_where, first.selector.walk()) if part is not None)
+    other = [part for part in map(as_where, second.selector.walk()) if part and part.attribute == such.attribute]
+    if len(other) != 1 or len(second.selector.members) > 1 or other[0].value == such.value:
+        return None
+    some = as_some(second.selector) or as_random(second.selector)
+    described = second.selector if some is None else some.of
+    kind = swapped(described, other[0], other[0].of)
+    if kind == s.Trees() or not is_description(described):
+        return None
+    return both(replace(first, selector=over(first.selector, kind)), second)
+
+
+@construction("place: first=place AND [AT] n=count word=WITHOUT", cost=0.1)
+@construction("place: first=place AND [AT] n=count word=WITHOUT IT", cost=0.1)
+def and_some_without(first: PlaceMeaning, n: int, word: Lex) -> PlaceMeaning | None:
+    """Compose "four plants with mildew and four without"."""
+    some = as_some(first.selector) or as_random(first.selector)
+    flags = [one for one in map(as_where, first.selector.walk()) if one is not None and isinstance(one.value, bool)]
+    if "leaves_out" not in word.features or some is None or len(flags) != 1:
+        return None
+    others = swapped(some.of, flags[0], replace(flags[0], value=not flags[0].value))
+    parts = (first.selector, replace(some, count=n, of=others))
+    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=some.count + n)
 
 
 @construction("place: word=EACH whole=place", cost=0.1)
@@ -351,10 +391,29 @@ def of_them_there(whole: PlaceMeaning, word: Lex | None = None, it: Lex | None =
     return replace(whole, there=True, inside=inside) if chooses_from_trees(whole.selector) else None
 
 
-@construction("each_kind: EACH kind=ATTR", cost=0.0)
-def each_kind(kind: Lex) -> tuple[Lex, int]:
-    """Compose "each variety"."""
-    return kind, 0
+@dataclass(frozen=True, slots=True)
+class EachKind:
+    """Each of the kinds of trees that an attribute tells apart.
+
+    Attributes:
+        kind: The attribute.
+        several: Number of kinds, if the phrase gives it (otherwise 0).
+        of: Trees of which they are kinds.
+    """
+
+    kind: Lex
+    several: int = 0
+    of: s.Selector = _ANY_TREES
+
+
+@construction("each_kind: EACH kind=ATTR", "each_kind: EACH crop=ATTRVAL kind=ATTR", cost=0.0)
+@construction("per_kind: PER kind=ATTR", "per_kind: PER crop=ATTRVAL kind=ATTR", cost=0.0)
+def each_kind(kind: Lex, crop: Lex | None = None) -> list[EachKind]:
+    """Compose "each variety" and "each tomato cultivar"."""
+    if crop is None:
+        return [EachKind(kind)]
+    crops = [(name, value) for name, value in crop.value if name not in kind.value]
+    return [EachKind(kind, of=s.Where(attribute=name, test="eq", value=value)) for name, value in crops]
 
 
 @construction(
@@ -362,42 +421,31 @@ def each_kind(kind: Lex) -> tuple[Lex, int]:
     "each_kind: INEACH [OF] [DET] n=count kind=ATTR",
     cost=0.0,
 )
-def each_of_kinds(n: int, kind: Lex) -> tuple[Lex, int]:
+def each_of_kinds(n: int, kind: Lex) -> EachKind:
     """Compose "each of the two varieties"."""
-    return kind, n
+    return EachKind(kind, n)
+
+
+@construction(
+    "per_kind: OF kinds=each_kind", "per_kind: FOR kinds=each_kind", "per_kind: FROM kinds=each_kind",
+    "per_kind: AT kinds=each_kind",
+    cost=0.0,
+)  # fmt: skip
+def of_every_kind(kinds: EachKind) -> EachKind:
+    """Compose "from each variety"."""
+    return kinds
 
 
 @construction("place: some=place OF kinds=each_kind", cost=0.3, given=("site",))
-def best_of_each_kind(some: PlaceMeaning, kinds: tuple[Lex, int], site: Site) -> list[PlaceMeaning] | None:
+def best_of_each_kind(some: PlaceMeaning, kinds: EachKind, site: Site) -> list[PlaceMeaning] | None:
     """Compose "the three oldest trees of each variety"."""
     best = as_top(some.selector)
     return None if best is None or best.of != s.Trees() else of_each_kind(best, kinds, site)
 
 
 @construction(
-    "place: n=count [random=RANDOM] TREE OF EACH crop=ATTRVAL kind=ATTR",
-    "place: n=count [random=RANDOM] TREE FROM EACH crop=ATTRVAL kind=ATTR",
-    cost=0.2, given=("site",),
-)  # fmt: skip
-def so_many_of_each_kind_of_crop(
-    n: int, crop: Lex, kind: Lex, site: Site, random: Lex | None = None
-) -> list[PlaceMeaning] | None:
-    """Compose "two plants of each tomato cultivar"."""
-    made: list[PlaceMeaning] = []
-    for name, value in crop.value:
-        if name not in kind.value:
-            inner = Nominal(s.Where(attribute=name, test="eq", value=value), plural=True)
-            made += so_many_of_each_kind(n, inner, site, (kind, 0), random=random) or []
-    return made or None
-
-
-@construction(
-    "place: n=count [random=RANDOM] inner=nominal PER kind=ATTR",
-    "place: n=count [random=RANDOM] inner=nominal OF kinds=each_kind",
-    "place: n=count [random=RANDOM] inner=nominal FOR kinds=each_kind",
-    "place: n=count [random=RANDOM] inner=nominal FROM kinds=each_kind",
-    "place: n=count inner=nominal PER kind=ATTR in_ where=region",
-    "place: n=count inner=nominal OF kinds=each_kind in_ where=region",
+    "place: n=count [random=RANDOM] inner=nominal kinds=per_kind",
+    "place: n=count inner=nominal kinds=per_kind in_ where=region",
     cost=0.2,
     given=("site",),
 )
@@ -405,8 +453,7 @@ def so_many_of_each_kind(
     n: int,
     inner: Nominal,
     site: Site,
-    kinds: tuple[Lex, int] | None = None,
-    kind: Lex | None = None,
+    kinds: EachKind,
     where: s.Selector | None = None,
     random: Lex | None = None,
 ) -> list[PlaceMeaning] | None:
@@ -415,21 +462,23 @@ def so_many_of_each_kind(
         return None
     of = inner.selector if where is None else over(inner.selector, where)
     chosen = s.Take(count=n, of=of) if random is None else s.RandomSample(count=n, of=of)
-    return of_each_kind(chosen, (kind, 0) if kind is not None else kinds, site)
+    return of_each_kind(chosen, kinds, site)
 
 
-def of_each_kind(chosen: s.Selector, kinds: tuple[Lex, int] | None, site: Site) -> list[PlaceMeaning] | None:
+def of_each_kind(chosen: s.Selector, kinds: EachKind, site: Site) -> list[PlaceMeaning] | None:
     """Return what a selector chooses, of each of the kinds that the site records.
 
     Args:
         chosen: Some trees of a description.
-        kinds: Attribute that tells the kinds apart, and their number if the phrase gives one (otherwise 0).
+        kinds: The kinds.
         site: The site.
     """
     some = as_some(chosen) or as_random(chosen) or as_top(chosen) or as_quota(chosen)
-    if kinds is None or some is None:
+    if some is None:
         return None
-    kind, several = kinds
+    if kinds.of != _ANY_TREES:
+        some = replace(some, of=over(some.of, kinds.of))
+    kind, several = kinds.kind, kinds.several
     if kind.plural != (several > 0):
         return None
     made: list[PlaceMeaning] = []

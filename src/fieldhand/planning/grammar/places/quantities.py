@@ -53,6 +53,7 @@ def number(n: int) -> Determiner:
 def any_of(word: Lex | None = None, n: int | None = None, of: Lex | None = None) -> Determiner:
     """Compose "any" and "at least three"."""
     features = frozenset() if word is None else word.features
+    n = 1 if "just_one" in features and n is None else n
     such = "any_such" in features and n is None and of is None
     return Determiner("whichever" if "free_choice" in features else "any such" if such else "any", n)
 

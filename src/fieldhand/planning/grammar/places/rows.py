@@ -7,7 +7,7 @@ from dataclasses import replace
 from fieldhand.language import message
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import THOSE_ROWS, Nominal, PlaceMeaning
+from fieldhand.planning.grammar.meaning import OTHER_ROWS, THOSE_ROWS, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.places.counted import Positions, size_of
 from fieldhand.planning.grammar.places.numbered import all_of
@@ -117,6 +117,15 @@ def each_of_the_rows(each: Lex, word: Lex, noun: Lex) -> s.Selector | None:
     if "of_each" not in each.features or not noun.plural:
         return None
     return THOSE_ROWS if "spoken_of" in word.features else s.Rows()
+
+
+@construction("each_row: each=EACH OF OTHERS", "each_row: each=EACH OF DET OTHER noun=ROW", cost=0.1)
+@construction("each_row: each=EACH OF DET REMAINING noun=ROW", "each_row: each=EACH DET REMAINING noun=ROW", cost=0.1)
+@construction("each_row: each=EACH DET OTHER noun=ROW", cost=0.1)
+def each_of_the_other_rows(each: Lex, noun: Lex | None = None) -> s.Selector | None:
+    """Compose "each of the others" and "each of the other rows", of those that were named or left out before."""
+    known = "of_each" in each.features or "all_of" in each.features
+    return OTHER_ROWS if known and (noun is None or noun.plural) else None
 
 
 @construction("rows: word=DET noun=ROW", cost=0.6)

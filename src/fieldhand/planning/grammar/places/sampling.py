@@ -178,6 +178,12 @@ def percentage(part: Amount) -> float | None:
     return part.number if part.unit == "percent" and 0 < part.number < _MOST_PERCENT else None
 
 
+@construction("tree_share: ABOUT share=tree_share", cost=0.1)
+def about_a_share(share: float) -> float:
+    """Compose "roughly a third of", of which so many are taken."""
+    return share
+
+
 @construction("tree_share: part=PART [OF]", cost=0.1)
 def fraction(part: Lex) -> float:
     """Compose "a tenth of"."""

@@ -10,7 +10,8 @@ from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.chosen import Chosen, chosen_among
 from fieldhand.planning.grammar.places.clauses import Clause, Trait, with_attribute
 from fieldhand.planning.grammar.places.counted import Positions, rows_within, trees_counted
-from fieldhand.planning.grammar.places.numbered import all_of
+from fieldhand.planning.grammar.places.numbered import all_of, ids_of
+from fieldhand.planning.grammar.places.numbers import VAGUE_NUMBERS
 from fieldhand.planning.grammar.places.quantities import Determiner, quantified
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
@@ -50,6 +51,25 @@ def of_group(group: PlaceMeaning, one: Lex | None = None) -> Chosen | None:
     if not _is_group(group) or group.each:
         return None
     return Chosen(Nominal(group.selector, plural=True), group=group.count or -1, preceded=one is not None)
+
+
+@construction("chosen: SOMEOF group=place", cost=0.1)
+def vague_part_of_group(group: PlaceMeaning) -> list[Chosen] | None:
+    """Compose "some of the yellow trees": a question between numbers."""
+    whole = of_group(replace(group, shape="several") if group.shape == "area" else group)
+    return None if whole is None else [replace(whole, count=n) for n in VAGUE_NUMBERS]
+
+
+@construction(
+    "place: EACH BUT n=count OF group=place", "place: EACH except n=count OF group=place", cost=0.1, given=("site",)
+)
+def all_but_so_many(n: int, group: PlaceMeaning, site: Site) -> PlaceMeaning | None:
+    """Compose "all but two of the yellow trees", whichever these are."""
+    there = ids_of(group.selector, site) or set()
+    if not _is_group(group) or group.each or n >= len(there):
+        return None
+    left_out = s.Excluding(places=some_of(group.selector, n), of=group.selector)
+    return PlaceMeaning(left_out, "several")
 
 
 @construction("place: chosen=chosen", "place: ANY chosen=chosen", "place: ATLEAST chosen=chosen", cost=0.1)

@@ -145,8 +145,12 @@ class NavigationServer:
             self._stop_now()  # the path that a navigator left which has died
         corners, heading = self._corners(goal.goal_message), self._heading(goal.goal_message)
         here = self._platform.position
-        while len(corners) > 1 and math.dist(here.xy, corners[0]) < _PASSED_M:
+        passed_m = max(_PASSED_M, self._platform.goal_tolerance_m)
+        while len(corners) > 1 and math.dist(here.xy, corners[0]) < passed_m:
             corners = corners[1:]  # a controller prunes what is behind the robot
+        while self._type.endswith("/FollowPath") and len(corners) > 1 and _nears(here.xy, *corners[:2]):
+            corners = corners[1:]  # and begins where its path is nearest
+        corners = self._until_reached(here.xy, corners)
         self._goal, self._begun_s, self._feedback_s = goal, self._now(), -math.inf
         if any(math.dist(here.xy, corner) > _REACH_M for corner in corners):
             self._end(Progress(state="failed", what="the goal lies outside of the map"), _OUTSIDE)
@@ -157,6 +161,20 @@ class NavigationServer:
             self._controller.follow(self.abort_unexplained)
         if self._unexplained:
             self.abort_unexplained(self._unexplained)
+
+    def _until_reached(self, here: Point, corners: tuple[Point, ...]) -> tuple[Point, ...]:
+        """Return a path up to where its end counts as reached.
+
+        Nav2's goal checkers compare the position with the end alone, not with how much of the path is left.
+        """
+        tolerance_m = self._platform.goal_tolerance_m
+        if not tolerance_m or self._type.endswith("/FollowGPSWaypoints"):  # each of those is a goal
+            return corners
+        for number, (a, b) in enumerate(pairwise((here, *corners))):
+            at = _nearest_on(corners[-1], a, b)
+            if math.dist(at, corners[-1]) <= tolerance_m:
+                return (*corners[:number], at)
+        return corners
 
     def _stop_now(self) -> Progress:
         """End the drive where the robot is."""
@@ -304,14 +322,24 @@ class NavigationServer:
         return self._leg
 
 
+def _nears(point: Point, one: Point, two: Point) -> bool:
+    """Return True if the second of two poses of a path is nearer to a point."""
+    return math.dist(point, two) < math.dist(point, one)
+
+
 def _away(point: Point, a: Point, b: Point) -> float:
     """Return the distance in metres from a point to a leg."""
+    return math.dist(point, _nearest_on(point, a, b))
+
+
+def _nearest_on(point: Point, a: Point, b: Point) -> Point:
+    """Return the point of a leg that is nearest to a point."""
     length = math.dist(a, b)
     if length == 0:
-        return math.dist(point, a)
+        return a
     part = ((point[0] - a[0]) * (b[0] - a[0]) + (point[1] - a[1]) * (b[1] - a[1])) / length**2
     part = min(1.0, max(0.0, part))
-    return math.dist(point, (a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])))
+    return (a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1]))
 
 
 def _first(goal: RosMessage) -> int:

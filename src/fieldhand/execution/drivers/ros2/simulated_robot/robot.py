@@ -61,6 +61,7 @@ class GoalReport:
         metres, took_s: Distance and duration of the goal.
         readings: Readings in the units of the profile.
         charge_percent: Battery charge at the end of the goal.
+        off_m: Metres from where the robot is to where its navigation believes that it is.
     """
 
     seconds: float
@@ -72,6 +73,7 @@ class GoalReport:
     took_s: float = 0.0
     readings: Mapping[str, float] = field(default_factory=dict)
     charge_percent: float = 0.0
+    off_m: float = 0.0
 
 
 #: Degrees short of a goal's heading at which it stops turning: the default of Nav2's goal checker (0.25 rad).
@@ -175,7 +177,7 @@ class SimulatedRobot:
         self._cameras = CameraTopics(
             transport,
             bindings,
-            view=lambda: (self._nearest(), self.platform.position),
+            view=lambda: (self._nearest(), self.platform.true_position),
             header=lambda: self._stamped("camera"),
         )
         for name, bound in bindings.actions.items():
@@ -362,11 +364,12 @@ class SimulatedRobot:
                 took_s=progress.seconds,
                 readings=progress.readings,
                 charge_percent=self.platform.charge_percent,
+                off_m=math.dist(self.platform.position.xy, self.platform.true_position.xy),
             )
         )
 
     def _nearest(self) -> Place:
-        at = self.platform.position
+        at = self.platform.true_position
         return self._places.nearest(at.xy)
 
     def _locate(self, to: object, request: RosMessage) -> None:

@@ -39,7 +39,7 @@ class SimulatedPlatform:
         self._activity = ""
         self._over: Over = _nobody
         self._counted = 0.0
-        self._last_position = self._driver.position()
+        self._last_position = self._driver.true_position()
 
     @property
     def activity(self) -> str:
@@ -48,13 +48,33 @@ class SimulatedPlatform:
 
     @property
     def position(self) -> Position:
+        """Current position, as its navigation believes."""
+        return self._driver.pose()
+
+    @property
+    def true_position(self) -> Position:
         """Current position."""
+        return self._driver.true_position()
+
+    @property
+    def fix(self) -> Position:
+        """Current position, as its receiver measures it."""
         return self._driver.position()
+
+    @property
+    def noise_m(self) -> float:
+        """Standard deviation of a fix in metres, east and north."""
+        return self._driver.noise_m
+
+    @property
+    def goal_tolerance_m(self) -> float:
+        """Distance from a goal at which its navigation has reached it."""
+        return self._driver.goal_tolerance_m
 
     @property
     def heading_deg(self) -> float:
         """Heading in degrees clockwise from north; north before it has moved."""
-        return self._driver.position().heading_deg or 0.0
+        return self._driver.true_position().heading_deg or 0.0
 
     @property
     def charge_percent(self) -> float:
@@ -112,7 +132,7 @@ class SimulatedPlatform:
             over: Called once at the end, unless the drive is stopped.
             heading_deg: Heading at the end; None for that of the last leg.
         """
-        here = self._driver.position()
+        here = self._driver.pose()
         path = ((here.x, here.y), *through)
         self._speed = speed_m_s
         self._driver.start_drive(
@@ -168,7 +188,7 @@ class SimulatedPlatform:
         """Update odometer and heading."""
         if not self.driving:
             return
-        here = self._driver.position()
+        here = self._driver.true_position()
         east, north = here.x - self._last_position.x, here.y - self._last_position.y
         self._last_position = here
         step = max(0.0, progress.metres - self._counted)

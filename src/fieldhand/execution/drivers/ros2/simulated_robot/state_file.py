@@ -55,6 +55,8 @@ class _Document(BaseModel):
     met: tuple[tuple[Count, Finite], ...] = ()
     docked: bool = False
     heading_deg: float | None = None
+    off_east_m: Finite = 0.0
+    off_north_m: Finite = 0.0
 
 
 def write_state(path: Path, state: SimulationState, identity: Identity) -> None:

@@ -107,10 +107,10 @@ class TelemetryTopics:
                         topic.publisher.send(message)
 
     def _fix(self) -> RosMessage:
-        at, lost = self._platform.position, self._platform.lost
+        at, lost = self._platform.fix, self._platform.lost
         variances = [0.0] * 9
         if not lost:
-            variances[0], variances[4], variances[8] = (sigma**2 for sigma in _SIGMA_M)
+            variances[0], variances[4], variances[8] = (max(sigma, self._platform.noise_m) ** 2 for sigma in _SIGMA_M)
         return {
             "header": self._stamped("gps"),
             "status": {"status": _NO_FIX if lost else _CORRECTED, "service": 1},
