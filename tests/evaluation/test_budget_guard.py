@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 
 from fieldhand.execution.guard import Guard
 from fieldhand.forecast.mission_state import Spent, Visit
-from fieldhand.forecast.visit_order import drives_for, visits_in_order
+from fieldhand.forecast.service import service_of
+from fieldhand.forecast.visit_order import drives_for, visits_in_order, with_stands
 from fieldhand.forecast.walk_branch import walk_branch
 from fieldhand.orienteering.overrun import overrun_probability
 from fieldhand.places.selectors import TreeIs, Trees
@@ -328,3 +329,19 @@ def test_the_robot_sets_out_along_the_order_that_was_forecast(seed):
     shown = [p.id for p in forecast.places]
     # A place that is as likely as one that is shown may come between.
     assert [place for place in paper.visited if place in shown][:3] == shown[:3]
+
+
+@pytest.mark.parametrize("chance", [0.3, 0.5, 0.7])
+def test_a_robot_that_leaves_its_places_in_between_still_has_what_it_collected_at_stake(chance):
+    """Twelve visits are not risked for a thirteenth, from a place where no visit was, such as a charger."""
+    paper = Paper(task_for(SITE, MANY, constraints=limited(400.0), nominal="return_to_end"), SITE, ROBOT, 3)
+    left = list(with_stands(paper.drives, paper.here, TREES))
+    for _ in range(12):
+        index = paper.guard.choose(paper.state("n1"), [paper.visit(p, MANY) for p in left]).index
+        assert index is not None
+        paper.go(left.pop(index), service_of(PICTURE, ROBOT))
+    home = paper.here = SITE.home("return_to_end", TREES[0])
+    far = sorted(left, key=lambda place: paper.drives.between(place, home).length_m)[-2:]
+    needed = min(lasts([home, place, home], chance) for place in far)
+    paper.spent = replace(paper.spent, metres=400.0 - needed)
+    assert paper.guard.choose(paper.state("n1"), [paper.visit(p, MANY) for p in far]).index is None

@@ -97,3 +97,11 @@ def test_a_single_optional_visit_may_be_charged_for(site: Site) -> None:
     assert made[0].charges is not None
     assert made[0].charges.mean == len(of_type(run.events, ChargeEnded)) == 1
     assert run.result.spent.seconds == pytest.approx(made[0].seconds.mean, rel=0.02)
+
+
+@pytest.mark.parametrize("limit", [2025.0, 2550.0])
+def test_after_a_charge_each_mission_keeps_the_limit_with_the_least_left(site: Site, limit: float) -> None:
+    robot, budgets = rechargeable(), (Budget(kind="duration_s", limit=limit),)
+    estimate = mission.review(task_of(SOME, site, robot, recharge=True, budgets=budgets), site, robot).estimate
+    assert estimate is not None
+    assert estimate.worst.chances[0].chance < 0.015  # 0.042 and 0.028 if that of most missions is kept by all

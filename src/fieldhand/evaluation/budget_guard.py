@@ -134,7 +134,6 @@ class BudgetGuard:
         why = message("there is no time to charge for more: {why}", context="log", why=decided.why)
         if not near:
             return VisitChoice(index=None, reason=self._and_the_battery(why))
-        self._optional.forget()
         found = self._optional.next(state, [candidates[k] for k in near], at_most, still_to_come)
         far = sorted(set(range(len(candidates))).difference(near))
         index = None if found.index is None else near[found.index]

@@ -30,6 +30,19 @@ Floats = NDArray[np.float64]
 VisitKey = tuple[tuple[float, float], tuple[float, float] | None]
 
 
+@dataclass(frozen=True, kw_only=True)
+class _Begun:
+    """What remains of a run that is planned anew.
+
+    Attributes:
+        accepted: Overrun probability of the whole mission with which it was planned.
+        collected: Reward of its visits so far, which a failure would lose.
+    """
+
+    accepted: float
+    collected: float
+
+
 @dataclass(kw_only=True)
 class _Run:
     """A run: the optional visits of one node, from the first decision to the last.
@@ -41,6 +54,7 @@ class _Run:
         start: Key of the place where the run began.
         rest: Mandatory work that follows the run.
         accepted: Overrun probability of the whole mission with which the run was planned.
+        before: Reward of visits made before the run was planned anew.
         beyond: Places of candidates excluded from the choice because there are too many.
         new: True before the first decision of the run.
         done: Vertices already visited.
@@ -52,10 +66,18 @@ class _Run:
     start: VisitKey
     rest: RemainingWork
     accepted: float
+    before: float
     beyond: frozenset[VisitKey]
     new: bool
     done: set[int] = field(default_factory=set)
     known: dict[int, tuple[Place, int | None]] = field(default_factory=dict)
+
+    @property
+    def begun(self) -> _Begun:
+        """Return what remains if the run is planned anew."""
+        return _Begun(
+            accepted=self.accepted, collected=self.before + float(self.problem.rewards[sorted(self.done)].sum())
+        )
 
     def number(self, place: Place) -> int | None:
         """Return the vertex of a candidate's place, or None if it is not in the run. Called very often."""
@@ -95,11 +117,11 @@ class VisitChooser:
     def __init__(self, budget: MissionBudget) -> None:
         self._budget = budget
         self._runs: dict[str, _Run] = {}
-        self._begun: dict[str, float] = {}
+        self._begun: dict[str, _Begun] = {}
 
     def forget(self) -> None:
         """Plan current runs anew, with their initial overrun probability."""
-        self._begun = {**self._begun, **{node: run.accepted for node, run in self._runs.items()}}
+        self._begun = {**self._begun, **{node: run.begun for node, run in self._runs.items()}}
         self._runs.clear()
 
     def withdraw(self, state: MissionState, visit: Visit) -> None:
@@ -118,7 +140,7 @@ class VisitChooser:
         if run is not None and not run.begins(candidates):
             # If all were visited, continue with the excluded ones at the same probability.
             if not run.choosable(candidates):
-                self._begun[state.node] = run.accepted
+                self._begun[state.node] = run.begun
             run = None
         rest = self._rest(state, run, candidates, to_come)
         cut_off = list[int]()
@@ -188,8 +210,9 @@ class VisitChooser:
         here = state.context.here
         if run is not None and run.rest is rest and run.here(here) is not None and not _fewer(run, visits, at_most):
             return run
-        begun = self._begun.pop(state.node, None) if run is None else run.accepted
-        accepted = self._accepted(state, rest) if begun is None else begun
+        begun = self._begun.pop(state.node, None) if run is None else run.begun
+        accepted = self._accepted(state, rest) if begun is None else begun.accepted
+        collected = 0.0 if begun is None else begun.collected
         problem = visits_problem(
             legs=visit_distances(here, visits, rest, self._budget.drives, self._budget.distances.between),
             rewards=[v.reward for v in visits],
@@ -210,11 +233,12 @@ class VisitChooser:
             warm = [vertex[key] for key in ahead if key in vertex]
         made = _Run(
             problem=problem,
-            policy=policy_for(problem, price=price, warm=warm),
+            policy=policy_for(problem, price=price, warm=warm, collected=collected),
             vertex=vertex,
             start=_key(here),
             rest=rest,
             accepted=accepted,
+            before=collected,
             beyond=beyond,
             new=begun is None,
         )

@@ -81,7 +81,9 @@ def left_before(
     return tuple(r.metres_left(spent) - r.metres_of(rest.work, robot) for r in resources)
 
 
-def policy_for(problem: Problem, *, price: float | None = None, warm: Sequence[int] = ()) -> Policy:
+def policy_for(
+    problem: Problem, *, price: float | None = None, warm: Sequence[int] = (), collected: float = 0.0
+) -> Policy:
     """Return the policy used on board and in the forecast; it maximises mean reward, with 0 for failed missions.
 
     Both use the same seed, so the robot starts with the forecast order.
@@ -90,9 +92,10 @@ def policy_for(problem: Problem, *, price: float | None = None, warm: Sequence[i
         problem: A problem from :func:`visits_problem`.
         price: Price of a failure in units of reward, if an earlier decision of the run has computed it.
         warm: Vertices of the previous plan.
+        collected: Reward of visits that are not in the problem because they were made before.
     """
     from fieldhand.orienteering.decision import SearchEffort
     from fieldhand.orienteering.policy import Policy
 
     effort = SearchEffort(remakes=_REMAKES) if warm else SearchEffort()
-    return Policy(problem, _SEED, risk_tolerance=0.0, price=price, warm=warm, effort=effort)
+    return Policy(problem, _SEED, risk_tolerance=0.0, price=price, warm=warm, effort=effort, collected=collected)

@@ -7,6 +7,7 @@ cannot afford according to the dynamic programme.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Protocol
 
@@ -29,6 +30,9 @@ _DEPTH = SearchEffort(rounds=20 * _STRIDE, insertions=8, remakes=8)
 #: A group is split if the standard deviation of its amounts left exceeds the first value as a fraction of their mean,
 #: unless it would fall below the second value as a fraction of all missions.
 _SPREAD, _SMALLEST = 0.05, 1 / 8
+#: Missions that another limit binds, or that differ in their visits when they are replanned at the place of their
+#: detour, are a group of their own if they are at least this fraction of all missions.
+_ALIKE = 1 / 32
 #: Number that stands for the place of a detour where others are numbers of vertices.
 _DETOUR = -1
 
@@ -116,15 +120,21 @@ def preview(
         detours: What missions do besides; it then determines the amounts left.
     """
     missions = _SampledMissions(policy, state, used, detours)
-    fewest = max(1, int(len(used) * _SMALLEST))
+    fewest, alike = (max(1, int(len(used) * part)) for part in (_SMALLEST, _ALIKE))
     waiting = [_Group(policy=policy, vertex=state.vertex, stops=(), members=np.arange(len(used)))]
     while waiting or missions.wait:
-        group = waiting.pop() if waiting else missions.together(rng)
+        if not waiting:
+            waiting += missions.together(alike, rng)
+        group = waiting.pop()
         if not len(group.members):
             continue
         left = missions.left[group.members]
         amounts = np.median(left, axis=0)
-        binding = left[:, int(amounts.argmin())]
+        binding = left.min(axis=1)
+        usual = left.argmin(axis=1) == amounts.argmin()
+        if group.warm and alike <= int(usual.sum()) <= len(usual) - alike:
+            waiting += group.parts((np.flatnonzero(usual), np.flatnonzero(~usual)), rng)
+            continue
         wide = float(binding.std()) > _SPREAD * float(amounts.min()) > 0.0
         if wide and group.warm and len(group.members) >= 2 * fewest:
             waiting += group.divided(binding, rng)
@@ -174,6 +184,10 @@ class _Group:
     def divided(self, left: Floats, rng: np.random.Generator) -> list[_Group]:
         """Split the group into missions with less and with more left, each to be planned separately."""
         order, half = np.argsort(left, kind="stable"), len(left) // 2
+        return self.parts((order[:half], order[half:]), rng)
+
+    def parts(self, parts: Sequence[Ints], rng: np.random.Generator) -> list[_Group]:
+        """Split the group into parts, given by the indices of their members, each to be planned separately."""
         return [
             _Group(
                 policy=self.policy.again(int(rng.integers(2**31)), self.policy.price, self.warm, _DEPTH),
@@ -183,7 +197,7 @@ class _Group:
                 warm=self.warm,
                 mixed=self.mixed,
             )
-            for part in (order[:half], order[half:])
+            for part in parts
         ]
 
 
@@ -202,7 +216,7 @@ class _SampledMissions:
         self._ended: list[tuple[Ints, tuple[int, ...]]] = []
         self._waits = np.zeros(count, dtype=bool)
         self._refused = np.zeros_like(self._visited)
-        self._left_behind: list[tuple[int, _Group]] = []
+        self._left_behind: list[tuple[Ints, _Group]] = []
 
     @property
     def is_uncertain(self) -> bool:
@@ -234,7 +248,7 @@ class _SampledMissions:
             been driven to the end.
         """
         members, last = group.members, len(order.stops) + 1
-        choice, step = search.choices(order.stops, bonus, float(self.left[members, search.binding].max()))
+        choice, step = search.choices(order.stops, bonus, float(self.left[members].min(axis=1).max()))
         position = np.zeros(len(members), dtype=np.int64)
 
         def drive(going: NDArray[np.bool_], until: int) -> None:
@@ -242,7 +256,7 @@ class _SampledMissions:
                 here = np.flatnonzero(going & (position == i) & ~self._waits[members])
                 if not len(here):
                     continue
-                left = self.left[members[here], search.binding]
+                left = self.left[members[here]].min(axis=1)
                 entry = np.clip(np.round(left / step), 0, choice.shape[1] - 1).astype(np.int64)
                 goes = np.where(left <= 0.0, last, choice[i, entry])
                 position[here] = goes
@@ -283,25 +297,40 @@ class _SampledMissions:
         """Return True if missions wait at the place of their detour."""
         return bool(self._left_behind)
 
-    def together(self, rng: np.random.Generator) -> _Group:
-        """Return the missions at the place of their detour as one group, which is to be planned anew from there."""
+    def together(self, alike: int, rng: np.random.Generator) -> list[_Group]:
+        """Return the missions at the place of their detour, in groups that are to be planned anew from there.
+
+        A plan is for missions that have made the same visits: those that set out earlier have more of them to make.
+
+        Args:
+            alike: Minimum number of missions with the same visits that are a group of their own.
+            rng: Random generator of the seeds.
+        """
         assert self._detours is not None and self._detours.policy is not None  # noqa: S101, PT018  they wait there
         waits = np.flatnonzero(self._waits)
         self._waits[:] = False
-        self._left_behind.sort(key=lambda one: -one[0])
-        _, largest = self._left_behind[0]
-        visited = self._visited[waits].mean(axis=0)
-        warm = tuple(v for v in dict.fromkeys(largest.warm) if visited[v] < 0.5)
-        stops = tuple(dict.fromkeys(v for _, group in self._left_behind for v in group.stops))
+        groups = [
+            self._from_detour(part, self._detours.policy, rng)
+            for part in _with_equal_rows(waits, self._visited[waits], alike)
+        ]
         self._left_behind.clear()
-        policy = self._detours.policy.again(int(rng.integers(2**31)), largest.policy.price, warm, _DEPTH)
-        return _Group(policy=policy, vertex=0, stops=stops, members=waits, warm=warm, mixed=True)
+        return groups
+
+    def _from_detour(self, members: Ints, policy: Policy, rng: np.random.Generator) -> _Group:
+        """Return missions at the place of their detour as one group, with the plan of most of them as its first."""
+        counts = [len(np.intersect1d(those, members)) for those, _ in self._left_behind]
+        came = [self._left_behind[k][1] for k in np.argsort(counts)[::-1].tolist() if counts[k]]
+        visited = self._visited[members].mean(axis=0)
+        warm = tuple(v for v in dict.fromkeys(came[0].warm) if visited[v] < 0.5)
+        stops = tuple(dict.fromkeys(v for group in came for v in group.stops))
+        policy = policy.again(int(rng.integers(2**31)), came[0].policy.price, warm, _DEPTH)
+        return _Group(policy=policy, vertex=0, stops=stops, members=members, warm=warm, mixed=True)
 
     def _leave_behind(self, group: _Group, ahead: Ints) -> None:
-        """Note how many missions of a group wait, and what it visits."""
-        count = int(self._waits[group.members].sum())
-        if count:
-            self._left_behind.append((count, replace(group, warm=(*ahead.tolist(), *group.warm))))
+        """Note which missions of a group wait, and what it visits."""
+        some = group.members[self._waits[group.members]]
+        if len(some):
+            self._left_behind.append((some, replace(group, warm=(*ahead.tolist(), *group.warm))))
 
     def collected(self, group: _Group) -> tuple[frozenset[int], frozenset[int]]:
         """Return the vertices that at least half of a group has visited, and those that it will not visit any more.
@@ -380,3 +409,21 @@ class _SampledMissions:
         if len(prepared.lengths.matrix):
             return np.asarray(prepared.lengths.matrix[vertices, to])
         return prepared.row(prepared.problem.end if to == prepared.size else to)[vertices]
+
+
+def _with_equal_rows(members: Ints, rows: NDArray[np.bool_], fewest: int) -> list[Ints]:
+    """Return members in groups with equal rows; those with rarer rows join the group whose row differs least.
+
+    Args:
+        members: The members.
+        rows: The row of each.
+        fewest: Minimum number of members with a row that makes a group.
+    """
+    different, number, counts = np.unique(rows, axis=0, return_inverse=True, return_counts=True)
+    kept = np.flatnonzero(counts >= fewest)
+    if len(kept) < 2:
+        return [members]
+    each = different.astype(np.float64)
+    differences = each.sum(axis=1)[:, None] + each[kept].sum(axis=1) - 2.0 * each @ each[kept].T
+    group = differences.argmin(axis=1)[number.reshape(-1)]
+    return [members[group == k] for k in range(len(kept))]
