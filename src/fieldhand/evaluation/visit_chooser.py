@@ -32,7 +32,7 @@ VisitKey = tuple[tuple[float, float], tuple[float, float] | None]
 
 @dataclass(frozen=True, kw_only=True)
 class _Begun:
-    """What remains of a run that is planned anew.
+    """State of a run that is kept when it is planned anew.
 
     Attributes:
         accepted: Overrun probability of the whole mission with which it was planned.
@@ -74,7 +74,7 @@ class _Run:
 
     @property
     def begun(self) -> _Begun:
-        """Return what remains if the run is planned anew."""
+        """Return the state that is kept if the run is planned anew."""
         return _Begun(
             accepted=self.accepted, collected=self.before + float(self.problem.rewards[sorted(self.done)].sum())
         )
