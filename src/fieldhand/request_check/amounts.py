@@ -195,7 +195,8 @@ def _counted(tokens: Sequence[Token], k: int, nouns: dict[int, Noun]) -> tuple[A
         text = tokens[at].text
         if _is_counted(tokens, at, nouns) and nouns[at].actions:
             return "captures", nouns[at].actions
-        if text in w.READINGS and at == k:
+        # "Known to within 2 %, 5 readings or more" is no number of captures.
+        if text in w.READINGS and at == k and [one.text for one in tokens[at + 1 : at + 3]] != ["or", "more"]:
             return "captures", frozenset()
         if text in w.CORNERS:
             return "corners", frozenset()

@@ -59,36 +59,19 @@ ELSEWHERE = [
      "co2 @ PointsIn(hot bay); co2 @ PointsIn(mild bay)"),
     (GLASSHOUSE, HUSKY,
      "Measure the CO2 at the west end and the east end of the hot bay, then do the same in the mild bay.",
-     "for UnionOf(EdgeMiddle(west, of InZone(hot bay))+EdgeMiddle(east, of InZone(hot bay))) given: [co2]; "
-     "for UnionOf(EdgeMiddle(west, of InZone(mild bay))+EdgeMiddle(east, of InZone(mild bay))) given: [co2]"),
+     "for UnionOf(Transect(1, edge, hot bay, west)+Transect(1, edge, hot bay, east)): [co2]; "
+     "for UnionOf(Transect(1, edge, mild bay, west)+Transect(1, edge, mild bay, east)): [co2]"),
     (PASTURE, HUSKY, "Read CO2 at the north and the south end of the bank and do the same in the boggy corner.",
-     "for UnionOf(PointsIn(bank, north)+PointsIn(bank, south)) given: [co2]; "
-     "for UnionOf(PointsIn(boggy corner, north)+PointsIn(boggy corner, south)) given: [co2]"),
+     "for UnionOf(Transect(1, edge, bank, north)+Transect(1, edge, bank, south)): [co2]; "
+     "for UnionOf(Transect(1, edge, boggy corner, north)+Transect(1, edge, boggy corner, south)): [co2]"),
+    (GARDEN, HUSKY, "Read CO2 next to the manure heap and again in the rose bed.",
+     "co2 @ Transect(1, edge, manure heap, -1.5); co2 @ PointsIn(rose bed)"),
 ]  # fmt: skip
 
 
 @pytest.mark.parametrize(("site", "robot", "request_", "plan"), ELSEWHERE, ids=name)
 def test_the_same_is_done_elsewhere(site: Site, robot: RobotProfile, request_: str, plan: str) -> None:
     require_plan(site, robot, request_, plan)
-
-
-ENDS = [
-    (GLASSHOUSE, "Read the air temperature at both ends of the hot bay.",
-     "for UnionOf(EdgeMiddle(west, of InZone(hot bay))+EdgeMiddle(east, of InZone(hot bay))) given: [air]"),
-    (GLASSHOUSE, "Read CO2 at the west end of the mild bay.", "co2 @ EdgeMiddle(west, of InZone(mild bay))"),
-    (PASTURE, "Read CO2 at the western end of the bank, then at its eastern end.",
-     "for UnionOf(PointsIn(bank, west)+PointsIn(bank, east)) given: [co2]"),
-    (GARDEN, "Read CO2 at the north end of bed 3.", "co2 @ InRow(1, 1, north, of Rows(3, 3))"),
-]  # fmt: skip
-
-
-@pytest.mark.parametrize(("site", "request_", "plan"), ENDS, ids=name)
-def test_areas_have_ends(site: Site, request_: str, plan: str) -> None:
-    require_plan(site, HUSKY, request_, plan)
-
-
-def test_which_are_the_ends_of_an_area_that_is_not_long_is_asked() -> None:
-    require_question(PASTURE, HUSKY, "Read CO2 at both ends of the cowslip patch.", 2)
 
 
 MEAN = "for {0}: [picture = r1]; if {2}(r1 > 30 degC): [for {1}: [picture]]"

@@ -280,7 +280,7 @@ KEPT = [
     "I planted some of the Carmels. Take a picture of those.",
     "I know some Carmels are ill. Take a picture of those.",
     "My wife thinks one of the Carmels is dying. Take a picture of it.",
-    "There's a gopher by the pond. Photograph it.",
+    "There's a gopher by tree 4. Photograph it.",
     "Photograph tree 4. There's a gopher beside it. Photograph that as well.",
     "Photograph tree 4. My brother planted it. Measure CO2 there.",
     "Photograph tree 4, my brother planted it, and measure its CO2.",

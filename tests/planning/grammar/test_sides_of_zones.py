@@ -111,12 +111,6 @@ PLANNED = [
     (PASTURE, HUSKY, "Measure CO2 right beside the middle gate.", "co2 @ GateIs(middle gate)"),
     (
         PASTURE,
-        HUSKY,
-        "Measure CO2 next to the stable door and again in the boggy corner.",
-        "co2 @ Marker(start); co2 @ PointsIn(boggy corner)",
-    ),
-    (
-        PASTURE,
         AMIGA,
         "Nitrate at the cowslip patch, then 10 m west of it and 20 m west of it.",
         (

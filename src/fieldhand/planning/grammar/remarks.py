@@ -37,7 +37,7 @@ _OF_STUDIES = frozenset({"DET", "GROUND", "NOUN", "OWNER", "PAPERWORK", "READING
 #: Categories of words that an aside may have beside unknown ones ("for the lab").
 _IN_ASIDES = frozenset(
     {"DET", "FOR", "FILLER", "IT", "IS", "WHICH", "OF", "MORE", "QUESTION", "THATWORD", "AT", "AS", "TELLS", "MEASURE"}
-    | {"PAPERWORK", "PURPOSE", "TELLME"}
+    | {"ASKSIF", "PAPERWORK", "PURPOSE", "TELLME"}
 )
 #: Categories of words that what is told of a tree may have beside unknown ones ("the one by the road").
 _IN_APPOSITIONS = frozenset({"AT", "BY", "DET", "DIMENSION", "IMPERSONAL", "IS", "OF", "VAGUEADJ", "WHICH"})

@@ -186,8 +186,9 @@ def _has_verb(begun: Sequence[int], known: WordKinds, *, sentence: bool) -> bool
     if sentence:
         return any(at > 0 for at in verbs) or (len(begun) > 3 and sum(not known.kinds[k] for k in begun) > 1)
     person = bool(known.kinds[begun[1]] & _PEOPLE)
-    if verbs and verbs[0] > 1 and not any(known.kinds[k] for k in begun[1 : verbs[0]]):
-        return "IS" in known.kinds[begun[verbs[0]]]  # "the caterpillars are awful"
+    nouns = begun[1 : verbs[0]] if verbs else ()
+    if nouns and "IS" in known.kinds[begun[verbs[0]]] and not any(known.kinds[k] for k in nouns):
+        return True  # "the caterpillars are awful"
     return ("OWNER" in first or person) and any(at > 1 for at in verbs)
 
 

@@ -324,7 +324,8 @@ def _others(whole: PlaceMeaning, out: Excluded, site: Site) -> PlaceMeaning | No
     if whole.like is None or out.place is None or whole.like.side or whole.like.kind not in ("", "rest", "half"):
         return None
     part = out.place.selector
-    if whole.like.kind == "rest" and whole.each and rows_out is not None and are_rows(rows_out):
+    unsaid = whole.like.kind == "rest" and whole.each and whole.selector == s.Trees()
+    if unsaid and rows_out is not None and are_rows(rows_out):
         return None  # "leave out the covered beds, and two pictures of each of the others": of each plant, or bed?
     if whole.like.kind == "rest":
         return replace(whole, like=None, selector=s.Excluding(places=part, of=whole.selector))

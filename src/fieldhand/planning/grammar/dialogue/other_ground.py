@@ -39,9 +39,13 @@ def on_ground(step: p.Node, zone: str) -> p.Node:
 
 
 def in_zone(points: s.Selector, zone: str) -> s.Selector:
-    """Return points of ground as those of another zone."""
+    """Return points of ground as those of another zone; a point at the edge of one is in the middle of the other."""
     if isinstance(points, s.UnionOf):
         return replace(points, parts=tuple(in_zone(one, zone) for one in points.parts))
+    if isinstance(points, s.Transect) and points == s.Transect(
+        count=1, shape="edge", zone=points.zone, off_m=points.off_m
+    ):
+        return s.PointsIn(zone=zone, count=1)
     return replace(points, zone=zone) if isinstance(points, s.PointsIn | s.Transect | s.Grid) else points
 
 

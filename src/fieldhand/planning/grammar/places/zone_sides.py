@@ -329,3 +329,9 @@ def beside_zone(zone: Lex, site: Site) -> PlaceMeaning | None:
 def beside_marker(at: s.Selector | None = None, gate: Lex | None = None) -> PlaceMeaning:
     """Compose "next to the charger", "near the road gate" and "just inside the door"."""
     return PlaceMeaning(at or s.GateIs(gate=gate.value if gate is not None else ""), "one")
+
+
+@construction("place: NEXTTO at=place", cost=0.3)
+def beside_plants(at: PlaceMeaning) -> PlaceMeaning | None:
+    """Compose "next to three random leeks": work on soil or air beside a plant is done at it."""
+    return at if at.shape == "several" and all(one.whole_zone == "" for one in at.selector.members) else None
