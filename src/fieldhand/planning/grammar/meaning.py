@@ -213,6 +213,7 @@ class Thing:
         parameters: Parameters that the phrase gives.
         more: True for "another" and "two more", which are taken besides those before.
         verb: Verb of a capture that is not named: ``look`` ("check tree 4") or ``sample``; empty for another one.
+        some: True for "some samples", whose number is open in a zone with plants, but not where the plants are named.
     """
 
     action: str
@@ -221,6 +222,7 @@ class Thing:
     parameters: tuple[tuple[str, str | float], ...] = ()
     more: bool = False
     verb: Literal["", "look", "sample"] = ""
+    some: bool = False
 
 
 #: Beginning of the action of a wait, which is read as a capture and becomes a wait when the plan is complete.
@@ -261,12 +263,14 @@ class PaceClause:
         used: Tokens of the phrase.
         at_most: True if the phrase only forbids to drive faster.
         slowly: True for "slowly" without a number.
+        share: Share of the robot's own speed that was said, or of the speed at which it works; 0 for a number.
     """
 
     speed: float
     used: int = 0
     at_most: bool = False
     slowly: bool = False
+    share: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -68,7 +68,7 @@ def at_part_of_speed(robot: RobotProfile, part: Lex | None = None, share: Amount
     if share is not None and share.unit != "percent":
         return None
     of = part.value if part is not None else 0.0 if share is None else share.number / 100.0
-    return PaceClause(round(of * robot.speed_m_s, 4)) if 0.0 < of <= 1.0 else None
+    return PaceClause(round(of * robot.speed_m_s, 4), share=of) if 0.0 < of <= 1.0 else None
 
 
 @construction("manner: FULLSPEED", cost=0.2, given=("robot",))

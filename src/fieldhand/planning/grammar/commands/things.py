@@ -7,6 +7,7 @@ from dataclasses import replace
 from fieldhand.planning.english.naming import Naming, split
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import LAST_THING, UNSAID_THING, Thing
+from fieldhand.planning.grammar.places.numbers import VAGUE_NUMBERS
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.robot.model import RobotProfile
 
@@ -22,10 +23,13 @@ def named_capture(noun: Lex, *, count: int | None = None, plural: bool = False) 
     return Thing(naming.actions[0], count=count, plural=plural, parameters=naming.parameters)
 
 
-@construction("thing: [DET] noun=NOUN", cost=0.0)
-def thing(noun: Lex) -> Thing | None:
-    """Compose "a picture"."""
-    return named_capture(noun, plural=noun.plural)
+@construction("thing: [word=DET] noun=NOUN", cost=0.0)
+def thing(noun: Lex, word: Lex | None = None) -> Thing | list[Thing] | None:
+    """Compose "a picture", and "some pictures" with the numbers that it may mean."""
+    made = named_capture(noun, plural=noun.plural)
+    if made is None or not noun.plural or word is None or "vague" not in word.features:
+        return made
+    return [replace(made, count=count, some=True) for count in (None, *VAGUE_NUMBERS)]
 
 
 @construction("thing: word=DET noun=NOUN", "thing: word=ANOTHER noun=NOUN", cost=0.0)

@@ -79,6 +79,7 @@ from fieldhand.planning.selections import (
     as_every_nth,
     as_in_row,
     as_some,
+    as_zone,
     chooses_from_trees,
     counts_in_row,
     drawn_like,
@@ -98,8 +99,24 @@ from fieldhand.task import plan as p
 from fieldhand.task.conditions import Condition
 
 
+def _of_some(command: CaptureCommand) -> CaptureCommand:
+    """Return captures of which "some" are taken: so many in a zone, and one of each plant that is named.
+
+    Raises:
+        NotComposed: They are the others.
+    """
+    if not any(one.some for one in command.things):
+        return command
+    place = command.place
+    is_open = place is not None and place.shape == "area" and as_zone(place.selector) is not None
+    if any(one.some and (one.count is None) == is_open for one in command.things):
+        raise NotComposed(message("how many?", context="fault"))
+    return replace(command, things=tuple(replace(one, some=False) for one in command.things))
+
+
 def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> DialogueState:
     """Return the state after a capture."""
+    command = _of_some(command)
     if command.relation == "lead" and command.place is not None and command.place.shape == "one":
         state = drive(setting, state, DriveCommand(command.place, command.used))
         command = replace(command, place=None)

@@ -41,6 +41,7 @@ from fieldhand.planning.grammar.dialogue.energy import recharged, reserve_in_per
 from fieldhand.planning.grammar.dialogue.faults import Fork
 from fieldhand.planning.grammar.dialogue.fitting import in_area, is_spoken_of
 from fieldhand.planning.grammar.dialogue.fragments import assembled
+from fieldhand.planning.grammar.dialogue.in_parts import shared_out
 from fieldhand.planning.grammar.dialogue.intervals import at_intervals, with_intervals
 from fieldhand.planning.grammar.dialogue.likewise import with_known_place
 from fieldhand.planning.grammar.dialogue.paces import paced, paced_drive, with_paces
@@ -164,7 +165,7 @@ def read_clauses(setting: Setting, said: Said, *, in_fragments: bool = False) ->
         NotComposed: The clauses do not fit together.
         Fork: They can be continued in several ways, and ``setting`` does not say in which.
     """
-    clauses, edits = as_meant(setting, with_intervals(at_compared(said.clauses), setting.site))
+    clauses, edits = as_meant(setting, with_intervals(at_compared(shared_out(said.clauses)), setting.site))
     if in_fragments and (whole := assembled(setting, clauses)) != clauses:
         clauses = whole
     elif in_fragments:

@@ -80,6 +80,7 @@ def with_paces(setting: Setting, state: DialogueState) -> DialogueState:
     Raises:
         NotComposed: A speed is faster than the robot, or several are said of one part.
     """
+    state = replace(state, paces=tuple(_of_its_work(setting, state, said) for said in state.paces))
     for said in state.paces:
         require_possible(setting, said.pace)
         state = slow_assumption(setting, state, said.pace)
@@ -101,6 +102,26 @@ def with_paces(setting: Setting, state: DialogueState) -> DialogueState:
     if whole is not None:
         state = with_assumption(state, _of_whole_mission(setting, whole))
     return replace(state, plan=replace(state.plan, steps=_paced(state.plan.steps, parts, drives)), speed=whole)
+
+
+def _of_its_work(setting: Setting, state: DialogueState, said: SaidPace) -> SaidPace:
+    """Return a share of the robot's speed as one of the speed at which it works: "film row 7 at half speed".
+
+    Raises:
+        NotComposed: It works at several speeds.
+    """
+    steps = state.plan.steps
+    if not said.pace.share or said.of_drive:
+        return said
+    meant = steps if said.of_all or said.step >= len(steps) else steps[said.step : said.step + 1]
+    actions = {node.work.action for step in meant for node in p.walk(step) if node.work is not None}
+    tools = [setting.robot.action[name].implement for name in actions]
+    speeds = {tool.speed_m_s for tool in tools if tool is not None}
+    if not speeds or said.pace.share == 1.0:
+        return said
+    if len(speeds) > 1:
+        raise NotComposed(message("the work is done at several speeds", context="fault"), said.pace.used)
+    return replace(said, pace=replace(said.pace, speed=round(said.pace.share * speeds.pop(), 4)))
 
 
 def _of_whole_mission(setting: Setting, said: SaidPace) -> str:
