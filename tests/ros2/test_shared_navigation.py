@@ -14,6 +14,8 @@ from hypothesis import strategies as st
 
 from fieldhand.errors import Ros2Error
 from fieldhand.evaluation.outcome import judge
+from fieldhand.execution.drivers.protocol import DriveGoal
+from fieldhand.execution.drivers.ros2 import action_client
 from fieldhand.execution.drivers.ros2.headway import Headway
 from fieldhand.execution.drivers.ros2.profile_check import check_live
 from fieldhand.execution.drivers.ros2.service_call import TimeLimit
@@ -135,6 +137,37 @@ def test_a_navigator_that_restarts_inactive_is_waited_for_and_its_controller_sto
     assert [(e.wanted, e.over) for e in of_type(result.events, Waited)] == [("navigation", True)]
     assert not of_type(result.events, Obstructed)
     assert "rejected" not in rig.ends()
+
+
+def test_a_restart_that_only_the_cancelled_goal_shows_stops_the_controller(monkeypatch: pytest.MonkeyPatch) -> None:
+    """On a bad link no result may arrive: the goal is given up because navigation is silent."""
+    monkeypatch.setattr(action_client, "RESULT_AGAIN_S", math.inf)
+    rig = Nav2Rig((replace(DIES, down_s=1.0, inactive_s=30.0),), profile(quiet_s=4.0))
+    result = rig.fly(act("r3c4"))
+    assert result.status == "completed"
+    said = whats(result)
+    assert "/navigate_to_pose was silent for 4 s; /follow_path has confirmed that its controller follows" in said
+    assert rig.ends("follow_path") == ["cancelled"]
+
+
+def test_a_drive_that_is_cancelled_after_a_restart_stops_the_controller() -> None:
+    rig = Nav2Rig((replace(DIES, down_s=1.0, inactive_s=None),))
+    driver = rig.connect()
+    tree = SITE.by_id["r3c4"].place
+    path, ends = (SITE.start.xy, tree.xy), ((SITE.start.lat, SITE.start.lon), (tree.lat, tree.lon))
+    driver.start_drive(DriveGoal(place=tree, path_m=path, path_degrees=ends, speed_m_s=1.0, length_m=math.dist(*path)))
+    while not rig.simulated.platform.metres > 5.0:
+        rig.clock.advance(0.2)
+        driver.poll()
+    rig.clock.advance(1.4)  # its navigator is back, and knows no goal
+    driver.cancel()
+    until = rig.clock.now() + 30.0
+    while not driver.poll().over and rig.clock.now() < until:
+        rig.clock.advance(0.2)
+    assert driver.poll().state == "cancelled"
+    stood = rig.simulated.platform.position
+    rig.clock.advance(20.0)
+    assert (rig.simulated.platform.position, rig.ends("follow_path")) == (stood, ["cancelled"])
 
 
 def test_a_navigator_that_is_gone_for_longer_than_its_clients_notice() -> None:

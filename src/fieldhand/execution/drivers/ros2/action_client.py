@@ -248,7 +248,9 @@ class ActionClient:
             return
         goal.refused = code == CANCEL_REJECTED
         # A goal request still in transit was unknown to the server when it answered.
-        goal.forgotten = goal.forgotten or code == CANCEL_TERMINATED or (code == CANCEL_UNKNOWN_GOAL and settled)
+        unknown = code == CANCEL_UNKNOWN_GOAL and settled
+        goal.forgotten = goal.forgotten or code == CANCEL_TERMINATED or unknown
+        goal.restarted = goal.restarted or (unknown and goal.accepted)  # it knew it before
 
     def _receive_cancel_all_reply(self, reply: RosMessage) -> None:
         """Record the goals that a cancel-all request ends; a rejected request is repeated."""

@@ -463,7 +463,7 @@ class RunningDrive:
             yield
         navigation.note_heading(client.feedback)
         near = after_m + _left_m(headway, nearest_m) <= NEAR_M
-        if (outcome.server and not self._cancelled) or outcome.moving:
+        if (outcome.server and not self._cancelled) or outcome.server == "restarted" or outcome.moving:
             return (yield from self._without_server(outcome, client)), False
         unexplained = ended_without_code(outcome) and not self._cancelled
         if unexplained and (ending := (yield from self._interrupted())) is not None:
@@ -493,7 +493,7 @@ class RunningDrive:
         if stopped and navigation.follow is not None:
             outcome = dataclasses.replace(outcome, moving=False)
             what = f"{what}; {navigation.follow.name} has confirmed that its controller follows no path any more"
-        if self._cancelled and not outcome.moving:
+        if self._cancelled and not outcome.moving and stopped is not False:
             return GoalEnd(state="cancelled", what=what)
         ending = end_of(outcome, navigation.binding, cancelled=False, has_codes=navigation.has_codes)
         if stopped is False and navigation.follow is not None:
