@@ -263,11 +263,16 @@ def is_drawn(selector: s.Selector) -> bool:
 
 def drawn_like(some: s.Selector, before: s.Selector) -> s.Selector:
     """Return some places as places that are drawn at random, if those before them are: "six more on the slope"."""
-    if not (isinstance(before, s.RandomSample) or (isinstance(before, s.PointsIn) and before.random)):
+    if not is_random(before):
         return some
     if isinstance(some, s.PointsIn) and some.count > 1:
         return replace(some, random=True)
     return s.RandomSample(count=some.count, of=some.of) if isinstance(some, s.Take) else some
+
+
+def is_random(selector: s.Selector) -> bool:
+    """Return True for trees or points of ground that are drawn at random."""
+    return isinstance(selector, s.RandomSample) or (isinstance(selector, s.PointsIn) and selector.random)
 
 
 def as_spread_points(selector: s.Selector) -> s.PointsIn | None:

@@ -198,7 +198,6 @@ def test_a_correction_takes_the_place_of_what_it_corrects(request_: str, plain: 
         "Photograph tree 4, no tree 5.",
         "Photograph row 2, I mean the yellow trees.",
         "Take CO2 at trees 3 and 4, sorry, tree 5.",
-        "Go to tree 4 and wait there.",
     ],
 )
 def test_an_unclear_correction_is_refused(request_: str) -> None:

@@ -36,7 +36,6 @@ WISHES = [
     ("Tell me which vines have mildew in row 2 of the south block.", "to recognise something"),
     ("Check whether the drip lines leak in row 8 of the north block.", "to recognise something"),
     ("Compare vine N100 with vine N101.", "to compare readings"),
-    ("Record the average temperature of the north block.", "a statistic"),
     ("Measure CO2 at vine N100 and stop when you see a person.", "cannot tell"),
     ("Take a picture of vine N100 unless it rains.", "the weather"),
     ("If the battery gets low go back to the start.", "the battery"),

@@ -26,6 +26,7 @@ from fieldhand.planning.selections import (
     as_zone,
     chooses_from_trees,
     is_one_row,
+    is_random,
     over,
 )
 from fieldhand.robot.model import RobotProfile
@@ -222,7 +223,7 @@ def more_of_them_part(n: int) -> Clause:
 def drawn_likewise(command: CaptureCommand, other: CaptureCommand, site: Site) -> CaptureCommand:
     """Return captures at places drawn at random if those of another command are."""
     parts = () if other.place is None else other.place.selector.members
-    drawn = all(isinstance(one, s.RandomSample) or (isinstance(one, s.PointsIn) and one.random) for one in parts)
+    drawn = all(is_random(one) for one in parts)
     return (_at_random(command, _Drawing(site)) or command) if parts and drawn else command
 
 

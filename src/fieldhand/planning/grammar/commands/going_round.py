@@ -30,7 +30,7 @@ Hand = Literal["left", "right"]
 
 @dataclass(frozen=True, slots=True)
 class Faced:
-    """What an implement faces.
+    """The ground that an implement faces.
 
     Attributes:
         out: True if it faces away from the ground.

@@ -67,7 +67,7 @@ def _of_zone(part: CaptureCommand, zones: AbstractSet[str]) -> CaptureCommand:
 
 
 def _zones(place: PlaceMeaning) -> set[str]:
-    return {part.zone for part in place.selector.walk() if isinstance(part, s.Transect | s.PointsIn | s.InZone)}
+    return {zone for part in place.selector.walk() if (zone := getattr(part, "zone", ""))}
 
 
 def _number_of_part(clause: LinkedCommand) -> int:

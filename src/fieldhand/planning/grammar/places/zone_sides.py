@@ -331,7 +331,8 @@ def beside_marker(at: s.Selector | None = None, gate: Lex | None = None) -> Plac
     return PlaceMeaning(at or s.GateIs(gate=gate.value if gate is not None else ""), "one")
 
 
-@construction("place: NEXTTO at=place", cost=0.3)
+@construction("zone_beside: NEXTTO at=place", cost=0.3)
 def beside_plants(at: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "next to three random leeks": work on soil or air beside a plant is done at it."""
-    return at if at.shape == "several" and all(one.whole_zone == "" for one in at.selector.members) else None
+    zones = [one for one in at.selector.walk() if getattr(one, "shape", "") == "edge" or one.whole_zone]
+    return at if at.shape == "several" and not zones else None
