@@ -47,10 +47,10 @@ class EnglishPlanner:
         """
         outcome = self._plain(request, site, robot, answers)
         if isinstance(outcome, Planned) and (said := watched_over(words_of(request))) and not _recurs(outcome):
-            asked = message(
+            how_often = message(
                 "'{said}': how often, and until when? Say it so: 'every 30 minutes from 9 to 12'.", said=said
             )
-            return Clarify(question=asked, planner=NAME)
+            return Clarify(question=how_often, planner=NAME)
         if not isinstance(outcome, Refused) or not self._suggests:
             return outcome
         from fieldhand.planning.refusals.same_as_earlier import asked_what_was_done
@@ -85,8 +85,8 @@ class EnglishPlanner:
         if found := _unplanned(early_wishes(words, lexicon_for(robot, site)), words, robot, earlier):
             from fieldhand.planning.refusals.helping import wish_reasons
 
-            found = _without_known_times(found, words, earlier)
-            return Refused(reasons=tuple(wish_reasons(found, request, words, site, robot)), planner=NAME)
+            wishes = _without_known_times(found, words, earlier)
+            return Refused(reasons=tuple(wish_reasons(wishes, request, words, site, robot)), planner=NAME)
         if missing := tuple(missing_blocks(words, site)):
             return Refused(reasons=missing, planner=NAME)
         from fieldhand.planning.grammar.reader import composed

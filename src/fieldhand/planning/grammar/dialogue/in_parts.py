@@ -63,7 +63,8 @@ def _of_zone(part: CaptureCommand, zones: AbstractSet[str]) -> CaptureCommand:
         named: s.Selector = replace(cast(Any, value), zone=next(iter(zones)))
         return named
 
-    return with_known(part, known)
+    moved: CaptureCommand = with_known(part, known)
+    return moved
 
 
 def _zones(place: PlaceMeaning) -> set[str]:
