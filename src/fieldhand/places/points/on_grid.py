@@ -97,13 +97,17 @@ def _frame(xy: Floats, selector: Grid) -> tuple[Floats, Floats, float, Floats]:
             for side, length, unit in zip(sides, lengths, np.array([(1.0, 0.0), (0.0, -1.0)]), strict=True)
         ]
     )
+    wider = message("ask for a wider grid, of at most {count} cells", count=MOST_POINTS)
+    if (lengths > MOST_POINTS * step).any():  # so many along one side: the number of all may not even be a number
+        raise PlaceError(
+            message("a grid {metres} m wide has too many cells there", metres=_metres(selector)), advice=wider
+        )
     shape = np.maximum(np.round(lengths / step), 1.0)
     if shape.prod() > MOST_POINTS:
+        cells = int(shape.prod())
         raise PlaceError(
-            message(
-                "a grid {metres} m wide has {count} cells there", metres=_metres(selector), count=int(shape.prod())
-            ),
-            advice=message("ask for a wider grid, of at most {count} cells", count=MOST_POINTS),
+            message("a grid {metres} m wide has {count} cells there", metres=_metres(selector), count=cells),
+            advice=wider,
         )
     origin = corner["nw"] + ((lengths - shape * step) / 2.0) @ axes
     return origin, axes, step, shape
