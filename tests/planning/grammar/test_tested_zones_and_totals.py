@@ -116,3 +116,34 @@ def test_asked(site: Site, robot: RobotProfile, request_: str, ways: int) -> Non
 @pytest.mark.parametrize(("site", "robot", "request_", "why"), REFUSED, ids=name)
 def test_refused(site: Site, robot: RobotProfile, request_: str, why: str) -> None:
     require_refusal(site, robot, request_, why)
+
+
+COMPARED = "co2 @ PointsIn(bank); co2 @ PointsIn(boggy corner)"
+
+
+@pytest.mark.parametrize(
+    ("request_", "plan"),
+    [
+        ("Compare the CO2 in the middle of the bank with the middle of the boggy corner.", COMPARED),
+        ("Compare the CO2 in the middle of the bank with that in the middle of the boggy corner.", COMPARED),
+        ("Compare the CO2 on the bank with the boggy corner.", COMPARED),
+        ("Compare the CO2 on the bank to that in the boggy corner.", COMPARED),
+        ("Compare the CO2 between the bank and the boggy corner.", f"{WIDE}[co2]"),
+        ("Compare the bank and the boggy corner for CO2.", f"{WIDE}[co2]"),
+        (
+            "Compare the air temperature at the cowslip patch with the one in the middle of the bank.",
+            "air @ PointsIn(cowslip patch); air @ PointsIn(bank)",
+        ),
+        (
+            "Compare the CO2 level at the middle gate with the level on the bank.",
+            "co2 @ GateIs(middle gate); co2 @ PointsIn(bank)",
+        ),
+    ],
+    ids=name,
+)
+def test_readings_are_compared(request_: str, plan: str) -> None:
+    require_plan(PASTURE, HUSKY, request_, plan)
+
+
+def test_several_readings_are_not_compared_with_an_unknown_number() -> None:
+    require_refusal(PASTURE, HUSKY, "Compare six random CO2 readings on the bank with the boggy corner.", "compare")
