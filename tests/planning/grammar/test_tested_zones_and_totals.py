@@ -11,7 +11,7 @@ from planning.grammar.field_requests import name, require_plan, require_question
 from support.sites.gardens import glasshouse, pasture
 
 GLASSHOUSE, PASTURE = glasshouse(), pasture()
-HUSKY, AMIGA = load_robot("husky"), load_robot("amiga")
+HUSKY, AMIGA, TRACTOR = load_robot("husky"), load_robot("amiga"), load_robot("tractor")
 
 HOT, MILD = "Take(1, of InZone(hot bay))", "Take(1, of InZone(mild bay))"
 BOTH = f"co2 @ {HOT} = r1; co2 @ {MILD}; if r1 > 900 ppm: [go {HOT}; wait 1800; co2]"
@@ -147,3 +147,40 @@ def test_readings_are_compared(request_: str, plan: str) -> None:
 
 def test_several_readings_are_not_compared_with_an_unknown_number() -> None:
     require_refusal(PASTURE, HUSKY, "Compare six random CO2 readings on the bank with the boggy corner.", "compare")
+
+
+NORTH_HALF = "mow area Half(north, of InZone(cow paddock))"
+
+
+@pytest.mark.parametrize(
+    ("request_", "plan"),
+    [
+        ("Mow the north half of the cow paddock, I'll do the rest on Friday.", NORTH_HALF),
+        ("Mow the north half of the cow paddock and I'll do the rest on Friday.", NORTH_HALF),
+        ("Mow the north half of the cow paddock. We'll mow the other half on Saturday.", NORTH_HALF),
+        ("Mow the north half of the cow paddock, the rest can wait until Friday.", NORTH_HALF),
+        ("Mow the north half of the cow paddock; my neighbour will take care of the rest tomorrow.", NORTH_HALF),
+        ("Mow the north half of the cow paddock, leave the rest to me.", NORTH_HALF),
+        ("Mow the north half of the cow paddock, I will do the remainder by hand.", NORTH_HALF),
+        ("Mow the north half of the cow paddock today, I'll do the rest on Friday.", f"{NORTH_HALF} | day=today"),
+    ],
+    ids=name,
+)
+def test_what_others_do_with_the_rest_asks_for_nothing(request_: str, plan: str) -> None:
+    require_plan(PASTURE, TRACTOR, request_, plan)
+
+
+def test_which_half_is_asked_beside_what_others_do() -> None:
+    require_question(PASTURE, TRACTOR, "Mow half of the cow paddock today, I'll do the rest on Friday.", 4)
+
+
+@pytest.mark.parametrize(
+    "request_",
+    [
+        "Mow the bank. I'll need the rest mown on Friday.",
+        "Mow the north half of the cow paddock, then do the rest on Friday.",
+        "Mow the bank. The rest can be done on Friday.",
+    ],
+)
+def test_work_that_the_robot_may_be_asked_for_later_is_refused(request_: str) -> None:
+    require_refusal(PASTURE, TRACTOR, request_, "on Friday")

@@ -323,10 +323,14 @@ def negated(test: Test) -> Test:
     given=("site",),
 )
 def reading_is(
-    test: Test, site: Site, subject: Subject = _IT, denied: Lex | None = None, place: PlaceMeaning | None = None
+    test: Test,
+    subject: Subject = _IT,
+    denied: Lex | None = None,
+    place: PlaceMeaning | None = None,
+    site: Site | None = None,
 ) -> Test | None:
     """Compose "it is above 30 degC", "it is not above 30 degC" and "is it above 30 degC"."""
-    place = None if place is None else _in_zone(place, site)
+    place = place if place is None or site is None else _in_zone(place, site)
     if place is not None and (subject.place is not None or not _is_known(place)):
         return None
     if (subject.place is not None or place is not None) and test.value == SAME_THRESHOLD:
