@@ -148,7 +148,7 @@ def _in_zone(place: PlaceMeaning, site: Site) -> PlaceMeaning:
     """Return a zone as the place in it where one reading is taken; another place as it is."""
     if place.shape != "area":
         return place
-    free = bare_points(place.selector, site, 1)
+    free: s.Selector | None = bare_points(place.selector, site, 1)
     if free is None and whole_zone(place.selector):
         free = s.Take(count=1, of=place.selector)
     return place if free is None else replace(place, selector=free, shape="one")
