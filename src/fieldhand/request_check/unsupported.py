@@ -13,6 +13,7 @@ from fieldhand.places.earlier.period import Period
 from fieldhand.request_check import words as w
 from fieldhand.request_check.earlier import states
 from fieldhand.request_check.mismatch import PlanMismatch
+from fieldhand.request_check.others_work import work_of_others
 from fieldhand.request_check.request_facts import RequestFacts
 
 _PARTS = "morning|afternoon|evening|night|midnight|noon|midday|lunch|lunchtime|dawn|dusk|sunrise|sunset|nightfall"
@@ -138,6 +139,8 @@ def _is_told(match: re.Match[str], facts: RequestFacts, sentence: int, first: in
         [facts.tokens[k].text for k in said if k >= last],
     )
     if _WAS_DONE.search(" ".join(before)) is not None:
+        return True
+    if said and first - said[0] in work_of_others([facts.tokens[k].text for k in said]):
         return True
     clause = " ".join(before).rpartition(" , ")[2]
     if _NOW.fullmatch(match[0]) is not None and _STATES.match(clause) is not None:

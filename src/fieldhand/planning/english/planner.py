@@ -14,6 +14,7 @@ from fieldhand.planning.english.watching_over import watched_over
 from fieldhand.planning.english.wishes import Wish, early_wishes
 from fieldhand.planning.grammar.planned import NAME
 from fieldhand.planning.planner import Answer, Clarify, Outcome, Planned, Refused
+from fieldhand.request_check.others_work import work_of_others
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.codec_text import hidden_character
@@ -78,6 +79,7 @@ class EnglishPlanner:
     ) -> Outcome:
         """Plan a request, without the words in some ranges, and without help if it is refused."""
         check_request(request)
+        told = (*told, *_of_others(words_of(request)))
         words = [word for word in words_of(request) if not any(s <= word.start and word.end <= e for s, e in told)]
         earlier = _earlier(words, site, robot)
         if (timed := self._timed(request, words, site, robot, answers, told)) is not None:
@@ -152,6 +154,18 @@ class EnglishPlanner:
         warnings = (*command.warnings, *warned)
         stated = replace(command, assumptions=(*said, *command.assumptions), warnings=warnings)
         return replace(outcome, task=replace(outcome.task, command=stated))
+
+
+def _of_others(words: Sequence[Word]) -> tuple[Span, ...]:
+    """Return the character ranges of what somebody else does with the rest ("I'll do the rest on Friday")."""
+    found: list[Span] = []
+    begin = 0
+    for end in (*(k for k, word in enumerate(words) if word.kind == "stop"), len(words)):
+        told = work_of_others(["," if word.kind == "comma" else word.norm for word in words[begin:end]])
+        if told and len(told) + 1 < len(words):
+            found.append((words[begin + told[0]].start, words[begin + told[-1]].end))
+        begin = end + 1
+    return tuple(found)
 
 
 def _waits_longer_than_interval(planned: Planned) -> bool:

@@ -99,6 +99,27 @@ def how_wet_is_it(noun: Lex, place: PlaceMeaning, used: int, way: str = "at") ->
     return CaptureCommand((Thing(naming.actions[0]),), place, used, relation=way) if known and naming.actions else None
 
 
+@construction(
+    "capture: noun=ASKHOW IS IT way=relation place=place ends=FULLSTOP how=parameter",
+    "capture: noun=ASKHOW IS place=place ends=FULLSTOP how=parameter",
+    cost=0.6,
+    given=("robot",),
+)
+def how_wet_down_there(
+    noun: Lex,
+    place: PlaceMeaning,
+    ends: Lex,
+    how: ParameterValue,
+    used: int,
+    robot: RobotProfile,
+    way: str = "at",
+) -> CaptureCommand | None:
+    """Compose "how wet is it at the trough? 15 cm deep."."""
+    known = how_wet_is_it(noun, place, used, way) if "question" in ends.features else None
+    thing = None if known is None else with_parameter(known.things[0], how, robot)
+    return None if known is None or thing is None else replace(known, things=(thing,))
+
+
 @construction("in_or_over: in_", "in_or_over: OVER", cost=0.0)
 def in_or_over() -> str:
     """Compose "in" and "across" before what a question is about."""

@@ -39,7 +39,7 @@ from fieldhand.planning.grammar.meaning import (
 )
 from fieldhand.planning.grammar.places.compass import AWAY_FROM
 from fieldhand.planning.grammar.places.numbers import named_trees
-from fieldhand.planning.grammar.places.sampling import bare_points
+from fieldhand.planning.grammar.places.sampling import bare_points, whole_zone
 from fieldhand.planning.grammar.words import Lex, hinted_attributes
 from fieldhand.planning.selections import as_in_row, as_some, is_one_row
 from fieldhand.robot.model import RobotProfile
@@ -131,17 +131,27 @@ def with_setting(
     given=("site",),
 )
 def reading_at(place: PlaceMeaning, site: Site, noun: Lex | None = None) -> list[Subject] | None:
-    """Compose "the temperature at tree 4" and "tree 4's"; of a bare zone it is that in its middle."""
-    if place.shape == "area" and (free := bare_points(place.selector, site, 1)) is not None:
-        place = replace(place, selector=free, shape="one")
+    """Compose "the temperature at tree 4" and "tree 4's"; of a zone it is that in its middle, or at a plant in it."""
+    place = _in_zone(place, site)
     named = [Subject()] if noun is None or noun.value is None else named_quantity(noun) or []
     return [replace(one, place=place) for one in named] if _is_known(place) and len(named) == 1 else None
 
 
-@construction("measured: place=place", cost=0.0)
-def reading_of_place(place: PlaceMeaning) -> Subject | None:
-    """Compose "tree 31" and "the southern one", of a reading that was taken there."""
+@construction("measured: place=place", cost=0.0, given=("site",))
+def reading_of_place(place: PlaceMeaning, site: Site) -> Subject | None:
+    """Compose "tree 31", "the southern one" and "the warm section", of a reading that was taken there."""
+    place = _in_zone(place, site)
     return Subject(place=place) if _is_known(place) else None
+
+
+def _in_zone(place: PlaceMeaning, site: Site) -> PlaceMeaning:
+    """Return a zone as the place in it where one reading is taken; another place as it is."""
+    if place.shape != "area":
+        return place
+    free: s.Selector | None = bare_points(place.selector, site, 1)
+    if free is None and whole_zone(place.selector):
+        free = s.Take(count=1, of=place.selector)
+    return place if free is None else replace(place, selector=free, shape="one")
 
 
 @construction(
@@ -158,12 +168,12 @@ def reading_to_side(side: str = "", place: Lex | None = None) -> Subject | None:
 
 
 def _is_known(place: PlaceMeaning) -> bool:
-    """Return True for one place that the phrase names by itself: not any tree of several."""
-    counted = as_in_row(place.selector)
+    """Return True for one place that the phrase names by itself: not any tree of several, but one of a zone."""
+    counted, some = as_in_row(place.selector), as_some(place.selector)
     if (
         place.shape != "one"
         or (place.like is not None and place.like.kind not in ("", "ranked"))
-        or as_some(place.selector) is not None
+        or (some is not None and not (some.count == 1 and whole_zone(some.of)))
     ):
         return False
     return counted is None or is_one_row(counted.of)
@@ -310,11 +320,17 @@ def negated(test: Test) -> Test:
     "test: subject=measured [IS] test=predicate relation place=place",
     "test: IS subject=measured test=predicate relation place=place",
     cost=0.2,
+    given=("site",),
 )
 def reading_is(
-    test: Test, subject: Subject = _IT, denied: Lex | None = None, place: PlaceMeaning | None = None
+    test: Test,
+    subject: Subject = _IT,
+    denied: Lex | None = None,
+    place: PlaceMeaning | None = None,
+    site: Site | None = None,
 ) -> Test | None:
     """Compose "it is above 30 degC", "it is not above 30 degC" and "is it above 30 degC"."""
+    place = place if place is None or site is None else _in_zone(place, site)
     if place is not None and (subject.place is not None or not _is_known(place)):
         return None
     if (subject.place is not None or place is not None) and test.value == SAME_THRESHOLD:

@@ -394,7 +394,11 @@ def captured_now_and_then() -> Adjunct:
 
 
 @construction(
-    "adjunct: FOR [DET] time=amount", "adjunct: OVER [DET] time=amount", "adjunct: FORNEXT time=amount", cost=0.4
+    "adjunct: FOR [DET] time=amount [INALL]",
+    "adjunct: OVER [DET] time=amount [INALL]",
+    "adjunct: FORNEXT time=amount",
+    "adjunct: [COMMA] time=amount INALL",
+    cost=0.4,
 )
 @construction("adjunct: FORNEXT unit=UNIT", cost=0.4)
 def for_so_long(time: Amount | None = None, unit: Lex | None = None) -> Adjunct | None:

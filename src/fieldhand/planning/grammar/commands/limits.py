@@ -68,6 +68,12 @@ def _is_limit(most: Amount) -> bool:
     return most.unit in _LIMITED and not (most.unit == "metres" and most.number < _LEAST_DRIVEN)
 
 
+@construction("in_all: time=amount INALL", "in_all: INALL time=amount", cost=0.3)
+def time_in_all(time: Amount) -> Amount | None:
+    """Compose "a quarter of an hour in all", which is for the whole mission."""
+    return time if time.unit == "seconds" else None
+
+
 @construction(
     "limit: INSIDE most=so_much",
     "limit: [subject] [MUST] USE most=so_much",
@@ -87,6 +93,10 @@ def _is_limit(most: Amount) -> bool:
     "limit: [at] [DET] UPPERLIMIT [IS] [OF] [COMMA] most=so_much",
     "limit: [at] [DET] most=amount UPPERLIMIT",
     "limit: BEFORE most=amount OVERDUE",
+    "limit: most=in_all",
+    "limit: subject [MUST] [IS] most=in_all",
+    "limit: [subject] [MUST] TAKES most=in_all",
+    "limit: [subject] [MUST] USE most=in_all",
     "limit: AT [DET] most=amount LIMIT",
     "limit: AS most=so_much ALLOW",
     cost=0.3,

@@ -108,6 +108,14 @@ def pushed(amount: Amount, name: Lex | None = None) -> ParameterValue | None:
     return ParameterValue(amount.number, amount.unit, names) if amount.unit == "metres" else None
 
 
+@construction("pushed: MEASURE [IT] how=parameter", "pushed: MEASURE EACH how=parameter", cost=0.1)
+@construction("pushed: TAKE [EACH] READING how=parameter", "pushed: TAKE IT how=parameter", cost=0.1)
+@construction("pushed: MEASURE [EACH] READING how=parameter", cost=0.1)
+def measured_down_to(how: ParameterValue) -> ParameterValue | None:
+    """Compose "probe 15 cm deep" behind what is measured."""
+    return how if how.unit == "metres" and not isinstance(how.value, str) else None
+
+
 @construction("parameter: [BUT] ROUGHAMOUNT", "parameter: [BUT] depth=ROUGHDEPTH", cost=0.3, given=("robot",))
 def open_amount(robot: RobotProfile, depth: Lex | None = None) -> ParameterValue | None:
     """Compose "not too much" and "less than usual", which give no number; the dialogue asks for it."""

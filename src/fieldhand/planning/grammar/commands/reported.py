@@ -308,10 +308,12 @@ def wants_figure() -> str:
 @construction(
     "capture: wants_figure DET of=STATISTIC [OF] [DET] things=things way=relation place=place",
     "capture: COMPARES [DET] [of=STATISTIC] [OF] [DET] things=things way=relation place=place",
+    "capture: COMPARES [DET] [of=STATISTIC] [OF] [DET] things=things BETWEEN place=place",
+    "capture: COMPARES place=place FOR [DET] things=things",
     cost=0.4,
 )
 def measured_for(
-    things: tuple[Thing, ...], way: str, place: PlaceMeaning, used: int, of: Lex | None = None
+    things: tuple[Thing, ...], place: PlaceMeaning, used: int, way: str = "at", of: Lex | None = None
 ) -> CaptureCommand | None:
     """Compose "get the mean CO2 of four spots on the slope" and "compare CO2 on the slope and on the bank"."""
     if place.shape not in ("one", "several", "area") or (of is not None and things[0].count is not None):
@@ -322,8 +324,14 @@ def measured_for(
     return CaptureCommand(several, place, used, relation=way, of=cast(StatisticName, of.value))
 
 
-@construction("said: COMPARES first=capture WITH second=capture", cost=0.3, given=("site",))
-@construction("said: before=said joint=joint COMPARES first=capture WITH second=capture", cost=0.6, given=("site",))
+@construction("against: WITH", "against: AGAINST", cost=0.0)
+def against() -> str:
+    """Compose "with" and "to" between what is compared."""
+    return "with"
+
+
+@construction("said: COMPARES first=capture against second=capture", cost=0.3, given=("site",))
+@construction("said: before=said joint=joint COMPARES first=capture against second=capture", cost=0.6, given=("site",))
 def compared_captures(
     first: CaptureCommand,
     second: CaptureCommand,
@@ -341,6 +349,32 @@ def compared_captures(
         own &= ~(clause.command.used | (0 if clause.before is None else clause.before.used))
     with_it = Connective(False, False, own, both=True)
     return Said((*earlier, LinkedCommand(joint, first), LinkedCommand(with_it, drawn_likewise(second, first, site))))
+
+
+@construction("compared_at: [word=DET] [relation] place=place", "compared_at: DET ONE relation place=place", cost=0.1)
+@construction("compared_at: DET READING relation place=place", cost=0.1)
+def compared_at(place: PlaceMeaning, word: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "that at the mast" and "the mast" as the place of the second readings that are compared."""
+    known = place.shape in ("one", "area") and not place.refers_back and place.count in (None, 1)
+    return place if known and (word is None or "demonstrative" in word.features) else None
+
+
+@construction("said: COMPARES first=capture against at=compared_at", cost=0.4, given=("site",))
+@construction("said: before=said joint=joint COMPARES first=capture against at=compared_at", cost=0.7, given=("site",))
+def compared_with_place(
+    first: CaptureCommand,
+    at: PlaceMeaning,
+    used: int,
+    site: Site,
+    before: Said | None = None,
+    joint: Connective | None = None,
+) -> Said | None:
+    """Compose "compare the CO2 at the trough with that at the mast", taken one after the other."""
+    single = first.place is not None and first.place.shape in ("one", "area") and first.place.count in (None, 1)
+    if not single or any((one.count or 1) > 1 or one.plural for one in first.things):
+        return None
+    second = replace(first, place=at, relation="at", used=at.tokens)
+    return compared_captures(first, second, used, site, before, joint)
 
 
 @construction("them_all: THEMALL [WITHEACHOTHER]", cost=0.1)

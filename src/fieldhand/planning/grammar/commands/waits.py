@@ -46,11 +46,13 @@ def duration(time: Amount) -> float | None:
     "wait: STAYV time=duration",
     "wait: STOP time=duration",
     "wait: STOPEACH time=duration",
-    "wait: GIVEIT time=duration",
+    "wait: GIVEIT time=duration [TOSETTLE]",
+    "wait: GIVETIME time=duration TOSETTLE",
+    "wait: LETSETTLE time=duration",
     cost=0.2,
 )
 def wait(time: float) -> float:
-    """Compose "wait for 10 minutes"."""
+    """Compose "wait for 10 minutes" and "let it settle for 5 minutes"."""
     return time
 
 
@@ -115,7 +117,13 @@ def wait_at(time: float, word: str, place: PlaceMeaning, used: int) -> CaptureCo
     return None if word in ("of", "lead") else CaptureCommand((wait_thing(time),), place, used)
 
 
-@construction("capture: WAITV", "capture: WAITV place=here", "capture: WAITV relation place=place", cost=2.5)
+@construction(
+    "capture: WAITV",
+    "capture: WAITV place=here",
+    "capture: WAITV relation place=place",
+    "capture: LETSETTLE",
+    cost=2.5,
+)
 def wait_for_how_long(used: int, place: PlaceMeaning | None = None) -> CaptureCommand:
     """Compose "wait at tree 4", which leaves open for how long."""
     return CaptureCommand((wait_thing(0.0),), place, used)
@@ -165,7 +173,7 @@ def each_act(verb: Lex) -> tuple[str, ...]:
     return (verb.value.actions[0],)
 
 
-@construction("settle_wait: time=wait", "settle_wait: LETSETTLE time=duration", "settle_wait: WITH time=wait", cost=0.1)
+@construction("settle_wait: time=wait", "settle_wait: WITH time=wait", cost=0.1)
 def settle_wait(time: float) -> float:
     """Compose "let the sensor settle for 20 s"."""
     return time

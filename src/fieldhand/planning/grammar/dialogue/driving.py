@@ -31,6 +31,7 @@ from fieldhand.planning.grammar.dialogue.state import (
 )
 from fieldhand.planning.grammar.meaning import DriveCommand, Home, InAnOrder, Lead, PlaceMeaning, VisitLimit
 from fieldhand.planning.grammar.places.compass import SIDES
+from fieldhand.planning.grammar.places.sampling import bare_points
 from fieldhand.planning.grammar.places.vague import as_many_of_best
 from fieldhand.planning.selections import (
     are_rows,
@@ -125,8 +126,9 @@ def is_there(setting: Setting, area: DriveCommand, place: PlaceMeaning | None) -
 
 
 def enter(setting: Setting, state: DialogueState, area: DriveCommand) -> DialogueState:
-    """Return the state after a drive to any tree of the area that the robot was sent to."""
-    one = PlaceMeaning(s.Take(count=1, of=area.place.selector), "one")
+    """Return the state after a drive to any tree of the area that the robot was sent to, or into its middle."""
+    selector = area.place.selector
+    one = PlaceMeaning(bare_points(selector, setting.site, 1) or s.Take(count=1, of=selector), "one")
     return drive(setting, replace(state, area=None), DriveCommand(one, area.used))
 
 

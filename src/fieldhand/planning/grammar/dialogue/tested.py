@@ -29,7 +29,7 @@ from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed
 from fieldhand.planning.grammar.meaning import BATTERY_TEST, NTH_READING, AllTests, Check, PlaceMeaning, Test
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
 from fieldhand.planning.grammar.places.numbered import ids_of
-from fieldhand.planning.selections import as_in_row, named_places
+from fieldhand.planning.selections import as_in_row, as_some, as_zone, named_places
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
@@ -263,12 +263,29 @@ def readings_at(setting: Setting, state: DialogueState, test: Test) -> tuple[Dia
             taken.append(((number,), where, step.act))
     places = tuple(dict.fromkeys(place for _, place, _ in taken))
     meant = _place_meant(setting, places, test.place)
+    if meant is None and _is_among(setting, state, test):
+        raise NotComposed(message("it is not clear which readings are tested", context="fault"))
     if meant is not None and test.place.like is not None and not _says_side(meant, test.place.like.side):
         steps = tuple(_said_to_side(step, meant, test.place.like.side, places) for step in state.plan.steps)
         state = replace(state, plan=replace(state.plan, steps=steps))
     if meant is None and test.place.like is not None:
         raise NotComposed(message("it is not clear which readings are tested", context="fault"))
     return state, list({act.action: path for path, place, act in taken if place == meant}.values())
+
+
+def _is_among(setting: Setting, state: DialogueState, test: Test) -> bool:
+    """Return True if a reading in a zone is tested, and readings were taken at plants of it."""
+    some = None if test.place is None else as_some(test.place.selector)
+    if some is None:
+        return False
+    inside, where = {*(ids_of(some.of, setting.site) or ())}, None
+    for _, node in walk(state.plan):
+        where = node.selector if node.selector is not None else where
+        if where is not None and fits(node, test, setting.robot):
+            taken = as_some(where)
+            if inside & {*(ids_of(where if taken is None else taken.of, setting.site) or ())}:
+                return True
+    return False
 
 
 def _says_side(place: s.Selector, side: str) -> bool:
@@ -294,6 +311,8 @@ def _place_meant(setting: Setting, places: Sequence[s.Selector], place: PlaceMea
     if place.like is None:
         meant = ids_of(place.selector, setting.site)
         same = [one for one in places if meant and ids_of(one, setting.site) == meant]
+        if not same and (some := as_some(place.selector)) is not None and (zone := as_zone(some.of)) is not None:
+            same = [one for one in places if one == s.PointsIn(zone=zone.zone, count=1)]
         return place.selector if place.selector in places else same[0] if len(same) == 1 else None
     side = place.like.side
     if side in CORNERS:

@@ -139,7 +139,7 @@ def half_an_hour() -> float:
     return 30.0
 
 
-@construction("lasting: FOR by=minutes", "lasting: FOR THE by=minutes", cost=0.0)
+@construction("lasting: FOR by=minutes", "lasting: FOR THE by=minutes", "lasting: by=minutes ALTOGETHER", cost=0.0)
 def lasting(by: float) -> float:
     """Compose "for half an hour", which is no time of the mission."""
     return by
