@@ -152,6 +152,7 @@ def test_zones_are_groups_too_and_a_tree_belongs_to_one():
         (Transect(count=5, shape="edge", off_m=float("nan")), "points cannot lie nan m from an edge"),
         (Grid(every_m=0.0), "a grid cannot be 0 m wide"),
         (Grid(every_m=0.01), "has .* cells there"),
+        (Grid(every_m=1e-275), "has too many cells there"),
         (PointsIn(zone="meadow", count=0, random=True), "0 points in a zone"),
         (Missing(of=Rows(first="1", last="1", of=NORTH)), "no position is empty there; .* 30 gaps"),
     ],
