@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from fieldhand.robot.loader import load_robot
-from planning.grammar.field_requests import name, require_plan
+from planning.grammar.field_requests import name, require_plan, require_question
 from support.sites.gardens import glasshouse, vegetable_garden
 
 GARDEN, GLASSHOUSE = vegetable_garden(), glasshouse()
@@ -40,3 +40,61 @@ EACH_WITHOUT = "for Excluding(UnionOf(InRow(1, 1, of Rows)+InRow(-1, -1, of Rows
 )
 def test_ends_are_left_out(request_: str, plan: str) -> None:
     require_plan(GARDEN, AMIGA, request_, plan)
+
+
+STAKED = "Where(staked, eq, True, of Where(crop, eq, aubergine))"
+FROST = "Where(frost_damage, eq, True, of Where(crop, eq, squash))"
+FEW = f"for UnionOf({FROST}+Take(2, of Where(frost_damage, eq, False, of Where(crop, eq, squash)))): [sample_leaf]"
+
+
+@pytest.mark.parametrize(
+    ("request_", "plan"),
+    [
+        ("Take leaf samples from all the squashes with frost damage and two without.", FEW),
+        ("Leaf sample from every squash with frost damage, plus two without frost damage to compare.", FEW),
+        ("Take leaf samples of every squash with frost damage and two ones without frost damage.", FEW),
+        (
+            "Photograph all netted plants and two unnetted ones.",
+            "for UnionOf(Where(netted, eq, True)+Take(2, of Where(netted, eq, False))): [picture]",
+        ),
+        (
+            "Photograph all netted beans.",
+            "for Where(netted, eq, True, of Where(crop, eq, bean)): [picture]",
+        ),
+    ],
+    ids=name,
+)
+def test_a_few_without_go_with_those_that_have_it(request_: str, plan: str) -> None:
+    require_plan(GARDEN, AMIGA, request_, plan)
+
+
+BOTH_BEDS = "for UnionOf(Rows(2, 2)+Rows(4, 4)): [picture]"
+
+
+@pytest.mark.parametrize(
+    ("request_", "plan"),
+    [
+        ("Photograph all plants in the bed beside the kale.", "for Rows(5, 5): [picture]"),
+        ("Photograph the bed next to the potatoes.", "for Rows(3, 3): [picture]"),
+        ("Photograph the bed next to bed 6.", "for Rows(5, 5): [picture]"),
+        ("Photograph the bed west of bed 4.", "for Rows(3, 3): [picture]"),
+        ("Photograph the row to the east of the radishes.", "for Rows(4, 4): [picture]"),
+        ("Photograph the beds either side of the radishes.", BOTH_BEDS),
+        ("Photograph both beds next to the radishes.", BOTH_BEDS),
+    ],
+    ids=name,
+)
+def test_beds_beside_a_crop(request_: str, plan: str) -> None:
+    require_plan(GARDEN, AMIGA, request_, plan)
+
+
+@pytest.mark.parametrize(
+    "request_",
+    [
+        "Take six nitrate samples in the bed next to the radishes.",
+        "Photograph the bed right beside the beans.",
+        "Photograph every plant in the bed alongside the squashes.",
+    ],
+)
+def test_a_bed_that_may_lie_on_either_side_is_asked_for(request_: str) -> None:
+    require_question(GARDEN, AMIGA, request_, 2)

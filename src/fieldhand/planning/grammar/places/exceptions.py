@@ -243,9 +243,9 @@ def without(whole: PlaceMeaning, out: Omission, site: Site) -> list[PlaceMeaning
         return None if left is None else [left]
     if out.positions and (row := _only_row_of(whole, site)) is not None:
         return _ends_of_only_row(whole, out, row)
-    if out.positions and out.rows is None and are_several_rows(whole.selector) and whole.per is None:
-        if out.as_trees or (whole.shape == "several" and len(out.positions) == 2 and sum(map(sum, out.positions)) == 0):
-            return except_positions(whole, out.positions, whole.selector)  # "the plants in each bed except its ends"
+    of_each = out.as_trees or (whole.shape == "several" and sum(map(sum, out.positions)) == 0)
+    if out.positions and out.rows is None and of_each and are_several_rows(whole.selector) and whole.per is None:
+        return except_positions(whole, out.positions, whole.selector)  # "the plants in each bed except its ends"
     if out.positions and not are_several_rows(whole.selector):
         return except_positions(whole, out.positions, out.rows)
     if out.positions and out.rows is not None:
