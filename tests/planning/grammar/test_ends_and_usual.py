@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import pytest
 
+from fieldhand.planning.english.planner import EnglishPlanner
+from fieldhand.planning.planner import Clarify
 from fieldhand.robot.loader import load_robot
+from fieldhand.site.model import Site
 from planning.grammar.field_requests import name, require_plan, require_question
-from support.sites.gardens import glasshouse, vegetable_garden
+from support.sites.gardens import box, glasshouse, mark, read, vegetable_garden
 
 GARDEN, GLASSHOUSE = vegetable_garden(), glasshouse()
-AMIGA = load_robot("amiga")
+AMIGA, TRACTOR = load_robot("amiga"), load_robot("tractor")
 
 ENDS = "UnionOf(InRow(1, 1, of Rows(3, 3))+InRow(-1, -1, of Rows(3, 3)))"
 WITHOUT_ENDS = f"for Excluding({ENDS}, of Where(crop, eq, radish, of Rows(3, 3))): [picture]"
@@ -98,3 +101,50 @@ def test_beds_beside_a_crop(request_: str, plan: str) -> None:
 )
 def test_a_bed_that_may_lie_on_either_side_is_asked_for(request_: str) -> None:
     require_question(GARDEN, AMIGA, request_, 2)
+
+
+@pytest.mark.parametrize(
+    ("request_", "question"),
+    [
+        ("Spray the usual rows before lunch.", "which rows?"),
+        ("Mow the regular rows.", "which rows?"),
+        ("Spray the northern rows.", "which rows?"),
+        ("Photograph the usual plants.", "which ones?"),
+        ("Soil moisture reading at the usual spots.", "which ones?"),
+        ("Moisture reading at H1-3, go deeper than usual this time", "5 to 60 cm"),
+        ("Moisture reading at H1-3, but push the probe in deeper than last time.", "5 to 60 cm"),
+        ("Soil moisture at H1-3. Go a bit deeper this time.", "5 to 60 cm"),
+        ("Soil moisture at H1-3, this time slightly shallower.", "5 to 60 cm"),
+    ],
+    ids=name,
+)
+def test_what_is_usual_is_asked_for(request_: str, question: str) -> None:
+    outcome = EnglishPlanner().plan(request_, GLASSHOUSE, TRACTOR)
+    assert isinstance(outcome, Clarify), outcome
+    assert question in outcome.question
+
+
+def _sown() -> Site:
+    days = ("2026-02-10", "2026-03-01", "2026-04-05")
+    return read(
+        box(0, 0, 40, 30, kind="boundary", name="plot"),
+        mark(2, 2, kind="start", name="gate post"),
+        *(
+            mark(5.0 + k, 5.0 + 3.0 * row, kind="plant", id=f"S{row}-{k}", row=row, sown=day)
+            for row, day in enumerate(days, start=1)
+            for k in range(6)
+        ),
+    )
+
+
+@pytest.mark.parametrize(
+    ("request_", "plan"),
+    [
+        ("Photograph everything sown since the first of March.", "for Where(sown, ge, 2026-03-01): [picture]"),
+        ("Photograph the plants sown after April the first.", "for Where(sown, gt, 2026-04-01): [picture]"),
+        ("Photograph all plants sown before the tenth of April.", "for Where(sown, lt, 2026-04-10): [picture]"),
+    ],
+    ids=name,
+)
+def test_days_of_sowing_are_spelt_out(request_: str, plan: str) -> None:
+    require_plan(_sown(), AMIGA, request_, plan)
