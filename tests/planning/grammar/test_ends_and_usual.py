@@ -148,3 +148,20 @@ def _sown() -> Site:
 )
 def test_days_of_sowing_are_spelt_out(request_: str, plan: str) -> None:
     require_plan(_sown(), AMIGA, request_, plan)
+
+
+ACROSS = "for UnionOf(TreeIs(V33)+Across(TreeIs(V33), west)+Across(TreeIs(V33), east)): [picture]"
+
+
+@pytest.mark.parametrize(
+    "request_",
+    [
+        "Picture of radish V33 and the plant across from it in each bed beside it.",
+        "Photograph V33 and the plant opposite it in the beds on both sides.",
+        "Photograph V33 and the plants directly across from it in the neighbouring beds.",
+        "Photograph V33 and the one opposite in each neighbouring bed.",
+        "Photograph V33 and the plants opposite it on both sides.",
+    ],
+)
+def test_plants_opposite_stand_on_both_sides(request_: str) -> None:
+    require_plan(GARDEN, AMIGA, request_, ACROSS)
