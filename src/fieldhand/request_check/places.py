@@ -42,6 +42,11 @@ _PLANTED_FIRST = re.compile(
     r"|\b(?:sown|seeded|drilled|(?:trans)?planted) (?:the |most )?(?:first|last|earliest|latest|recently|lately)\b"
 )
 
+#: Pattern of rows by others beside them.
+_BESIDE_ROWS = re.compile(
+    r"\b(?:rows?|beds?|bench(?:es)?) (?:\w+ ){0,4}?"
+    r"(?:(?:next|adjacent) to|beside|alongside|sides? of|(?:north|south|east|west) of)\b"
+)
 #: Pattern of the neighbours of several trees.
 _BESIDE_THEM = re.compile(
     r"\b(?:(?:either|each|both) sides?|left and right|right and left) of (?:it|them|these|those|each)\b"
@@ -165,7 +170,8 @@ def _rows(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
         return
     counted_there = _counts_rows_of_area(facts, plan)
     ranks = {rank for _, row in rows for rank in _ranks(row.first, site)} if counted_there else set()
-    ranks |= {int(row.first) + step for _, row in rows for step in (-1, 1) if _is_aisle_of(row, plan)}
+    beside = _BESIDE_ROWS.search(facts.text) is not None
+    ranks |= {int(row.first) + step for _, row in rows for step in (-1, 1) if beside or _is_aisle_of(row, plan)}
     for amount in facts.amounts:
         if int(amount.values[0]) in ranks or not _is_row(facts, amount) or _of_named_tree(facts, plan, amount):
             continue
@@ -176,7 +182,7 @@ def _rows(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
                 "the request names row {row}, but the plan does not", row=Number(f"{amount.values[0]:g}")
             )
             yield PlanMismatch(kind="place", what=what_differs)
-    if facts.unknown or _SOME_ROWS.search(facts.text) or _PLANTED_FIRST.search(facts.text):
+    if beside or facts.unknown or _SOME_ROWS.search(facts.text) or _PLANTED_FIRST.search(facts.text):
         return
     for node, row in rows:
         for name in dict.fromkeys((row.first, row.last)):
@@ -276,7 +282,8 @@ def _areas(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
     whole |= any(isinstance(x, s.Transect) and x.shape == "edge" and not x.zone for _, x in plan.having(s.Transect))
     if whole or (not plan.areas and not any(isinstance(x, s.Edge) for _, x in plan.selectors)):
         held |= {_name_text(zone.name) for zone in site.zones if zone.kind == "boundary"}
-    beds = {name for name in facts.zones if _is_a_row_of(name, plan)}
+    off = 1 if _BESIDE_ROWS.search(facts.text) else 0
+    beds = {name for name in facts.zones if _is_a_row_of(name, plan, off)}
     in_names = {name for name in facts.zones if any(name in one.split() for one in _marks_named(facts, site))}
     for name in sorted(facts.zones - held - rows - beds - in_names):
         if name in w.COMPASS and w.COMPASS[name] <= pointed:
@@ -322,14 +329,20 @@ def _is_side_of_edge(name: str, facts: RequestFacts, plan: PlanFacts) -> bool:
     return said is not None and any(one.mode == "perimeter" and one.sides not in ("one", "both") for one in plan.works)
 
 
-def _is_a_row_of(name: str, plan: PlanFacts) -> bool:
-    """Return True if an area that is named by its number may be one of the rows of a plan: "bed 4", which is row 4."""
+def _is_a_row_of(name: str, plan: PlanFacts, off: int = 0) -> bool:
+    """Return True if an area that is named by its number may be one of the rows of a plan: "bed 4", which is row 4.
+
+    Args:
+        name: Name of the area.
+        plan: The plan.
+        off: Number of rows that may lie between: 1 for "the bed next to bed 4".
+    """
     number = name.rpartition(" ")[2]
     rows = [x for _, x in plan.having(s.Rows) if isinstance(x, s.Rows)]
     if not number.isdecimal():
         return False
     bounds = [(row.first, row.last) for row in rows if row.first.isdecimal() and row.last.isdecimal()]
-    return any(int(first) <= int(number) <= int(last) for first, last in bounds)
+    return any(int(first) - off <= int(number) <= int(last) + off for first, last in bounds)
 
 
 def _pointed(plan: PlanFacts) -> set[Side]:
@@ -465,7 +478,7 @@ def _attributes(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[Pl
         held |= _values_in_row(name, site, shared=True)
     for tree in {tree for _, tree in plan.trees if tree in site.by_id}:
         held |= {_name_text(str(value)) for value in site.by_id[tree].properties.values()}
-    by_neighbours = bool(plan.trees and _BESIDE_THEM.search(facts.text))  # "the trees next to the yellow ones", by id
+    by_neighbours = bool(plan.trees and _BESIDE_THEM.search(facts.text)) or _BESIDE_ROWS.search(facts.text) is not None
     for word in facts.attributes:
         if _rows_left_out(word, facts, plan, site):
             continue

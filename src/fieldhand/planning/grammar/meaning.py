@@ -51,6 +51,8 @@ SAME_VALUE = "="
 OPEN_VALUE = "?"
 #: Seconds between captures that are made every so often, which it does not say.
 NOW_AND_THEN_S = 1e-3
+#: Rows that a command does not name ("the usual rows"), for which the dialogue asks.
+UNNAMED_ROWS = s.Rows(first="unnamed rows", last="the last of the unnamed rows")
 #: Rows that were named before ("these rows"), until the dialogue knows which.
 THOSE_ROWS = s.Rows(first="those rows", last="the last of those rows")
 #: The rows that were not named before: "each of the others".

@@ -116,12 +116,31 @@ def measured_down_to(how: ParameterValue) -> ParameterValue | None:
     return how if how.unit == "metres" and not isinstance(how.value, str) else None
 
 
-@construction("parameter: [BUT] ROUGHAMOUNT", "parameter: [BUT] depth=ROUGHDEPTH", cost=0.3, given=("robot",))
-def open_amount(robot: RobotProfile, depth: Lex | None = None) -> ParameterValue | None:
-    """Compose "not too much" and "less than usual", which give no number; the dialogue asks for it."""
+@construction(
+    "rough_depth: ROUGHDEPTH", "rough_depth: [BITMORE] DEEPER [THANUSUAL]",
+    "going_deep: GO rough_depth [THISTIME]", "going_deep: PUSHPROBE [PROBEDOWN] rough_depth [THISTIME]",
+    "going_deep: THISTIME [GO] rough_depth", cost=0.1,
+)  # fmt: skip
+def rough_depth() -> str:
+    """Compose "a bit deeper than usual" and "go deeper than usual this time"."""
+    return "depth"
+
+
+@construction(
+    "parameter: [BUT] ROUGHAMOUNT", "parameter: [BUT] depth=rough_depth [THISTIME]",
+    "parameter: [BUT] depth=going_deep", cost=0.3, given=("robot",),
+)  # fmt: skip
+def open_amount(robot: RobotProfile, depth: str | None = None) -> ParameterValue | None:
+    """Compose "not too much" and "deeper than usual", which give no number; the dialogue asks for it."""
     numbers = {one.name for action in robot.actions for one in action.parameters if _is_bounded(one)}
     names = tuple(sorted(name for name in numbers if ("depth" in name) == (depth is not None)))
     return ParameterValue(OPEN_VALUE, "", names) if names else None
+
+
+@construction("capture: said=capture FULLSTOP [BUT] depth=going_deep", cost=0.3, given=("robot",))
+def capture_so_deep(said: CaptureCommand, used: int, depth: str, robot: RobotProfile) -> CaptureCommand | None:
+    """Compose "measure moisture at tree 4. Go deeper this time."."""
+    return capture_with(said, used, robot, how=open_amount(robot, depth))
 
 
 @construction("parameter: how=setting", cost=0.1)

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.parameters import with_parameter
-from fieldhand.planning.grammar.meaning import Amount, Nominal, ParameterValue, Thing, WorkCommand
+from fieldhand.planning.grammar.meaning import UNNAMED_ROWS, Amount, Nominal, ParameterValue, Thing, WorkCommand
 from fieldhand.planning.grammar.places.areas import edges
 from fieldhand.planning.grammar.places.compass import SIDES
 from fieldhand.planning.grammar.places.numbered import ids_of
@@ -125,6 +125,12 @@ def ground(where: s.Selector) -> Tract | None:
 def whole_site(out: s.Selector | None = None) -> Tract:
     """Compose "everything but the wet corner"."""
     return Tract(s.Trees() if out is None else s.Excluding(places=out), None)
+
+
+@construction("tract: [ALONG] [DET] USUAL noun=ROW", "tract: [ALONG] DET DIR noun=ROW", cost=1.0)
+def unnamed_rows(noun: Lex) -> Tract | None:
+    """Compose "the usual rows" and "the northern rows", which do not say which rows."""
+    return Tract(UNNAMED_ROWS, "rows") if noun.plural else None
 
 
 @construction("tract: EVERYTHING in_ where=region", cost=0.1)

@@ -174,6 +174,8 @@ def require_known(setting: Setting, state: DialogueState, place: PlaceMeaning | 
             raise NotComposed(message("what is near, the tree or the row?"), advice=message("name the row"))
         if measures_distance(place.selector):
             raise OpenQuestion(message("'{said}': within how many metres?", context="question", said=said))
+        if place.selector == s.Trees():
+            raise OpenQuestion(message("'{said}': which ones?", context="question", said=said))
         several = message("'{said}': which rows?", context="question", said=said)
         raise OpenQuestion(several if place.count else message("'{said}': which row?", context="question", said=said))
     if place is not None and place.shape == "nowhere":

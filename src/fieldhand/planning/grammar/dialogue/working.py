@@ -10,9 +10,16 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.commands.going_round import mounted_side, usual_way
 from fieldhand.planning.grammar.commands.laps import goes_around, is_thin
 from fieldhand.planning.grammar.dialogue.open_amounts import require_amounts
-from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, Spans, with_step
+from fieldhand.planning.grammar.dialogue.state import (
+    DialogueState,
+    NotComposed,
+    OpenQuestion,
+    Setting,
+    Spans,
+    with_step,
+)
 from fieldhand.planning.grammar.dialogue.that_ground import ground_spoken_of
-from fieldhand.planning.grammar.meaning import DriveCommand, WorkCommand
+from fieldhand.planning.grammar.meaning import UNNAMED_ROWS, DriveCommand, WorkCommand
 from fieldhand.planning.grammar.places.counted import row_itself
 from fieldhand.planning.grammar.places.planted_rows import filled_rows
 from fieldhand.planning.grammar.places.sampling import bare_points, is_keep_out
@@ -32,6 +39,8 @@ def work_along(setting: Setting, state: DialogueState, command: WorkCommand) -> 
     """
     said: Spans = setting.spans_of(command.used)
     along, mode = command.along, command.mode
+    if along == UNNAMED_ROWS:
+        raise OpenQuestion(message("'{said}': which rows?", context="question", said=setting.quoted(command.used)))
     if along is None and state.area is None and state.lead is None and (ground := _ground_of(state)) is not None:
         along, mode = ground, "area"
     if along is None:

@@ -17,6 +17,10 @@ _NUMBERS = {
     "a": 1, "an": 1, "one": 1, "two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7, "eight": 8, "nine": 9,
     "ten": 10, "eleven": 11, "twelve": 12, "fourteen": 14, "twenty": 20, "thirty": 30, "": 1,
 }  # fmt: skip
+_NTH = {
+    "first": "1", "second": "2", "third": "3", "fourth": "4", "fifth": "5", "sixth": "6", "seventh": "7", "eighth": "8",
+    "ninth": "9", "tenth": "10", "twelfth": "12", "fifteenth": "15", "twentieth": "20",
+}  # fmt: skip
 _MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
 _LAST_DAYS = (31, 29, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31)
 
@@ -214,7 +218,7 @@ _READ: Mapping[str, Callable[[Mapping[str, str | None]], PastTime | None]] = {
 
 def day_named(said: str) -> str:
     """Return a day as a period has it; empty for one that no calendar has."""
-    words = [word for word in said.replace(",", " ").split() if word not in ("the", "of", "-")]
+    words = [_NTH.get(word, word) for word in said.replace(",", " ").split() if word not in ("the", "of", "-")]
     if len(words) == 1:
         name = words[0]
         if name[:3] in ("mon", "tue", "wed", "thu", "fri", "sat", "sun"):

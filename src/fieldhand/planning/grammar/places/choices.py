@@ -116,15 +116,26 @@ def unknown_row(
     "place: [DET] DIR noun=ROW",
     "place: [DET] ranking noun=ROW",
     "place: [DET] MIDDLE noun=ROW",
+    "place: [DET] USUAL noun=ROW",
+    "place: whole=place in_ [DET] USUAL noun=ROW",
     "place: whole=place in_ [DET] DIR noun=ROW",
     "place: whole=place in_ [DET] ranking noun=ROW",
     cost=0.8,
 )
 def vague_rows(noun: Lex, whole: PlaceMeaning | None = None) -> PlaceMeaning | None:
-    """Compose "the northern rows" and "the top row", which do not say which rows."""
+    """Compose "the northern rows", "the top row" and "the usual rows", which do not say which ones."""
     if whole is not None and (whole.shape not in ("one", "several") or not chooses_from_trees(whole.selector)):
         return None
     return PlaceMeaning(s.Rows(), "unknown", count=2 if noun.plural else None)
+
+
+@construction(
+    "place: [DET] USUAL [n=count] noun=TREE", "place: [DET] [n=count] USUAL noun=TREE",
+    "place: [DET] USUAL [n=count] noun=POINT", "place: [DET] [n=count] USUAL noun=POINT", cost=0.8,
+)  # fmt: skip
+def usual_places(noun: Lex, n: int | None = None) -> PlaceMeaning:
+    """Compose "the usual spots", which does not say which ones."""
+    return PlaceMeaning(s.Trees(), "unknown", count=n or (2 if noun.plural else None))
 
 
 @construction(

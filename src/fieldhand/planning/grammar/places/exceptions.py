@@ -141,28 +141,38 @@ def position_left_out(at: Span) -> tuple[Span, ...]:
     return (at,)
 
 
+@construction("each_end: [DET] noun=FINISH", "each_end: BOTH noun=FINISH", cost=0.0)
+@construction("each_end: each=EACH noun=FINISH", "each_end: word=ANY noun=FINISH", cost=0.0)
+def each_end(noun: Lex, each: Lex | None = None, word: Lex | None = None) -> int | None:
+    """Compose "the ends", "each end" and "either end": the number of ends that the noun is about."""
+    if each is None and word is None:
+        return 2 if noun.plural else None
+    return None if noun.plural or (word is not None and not word.text.startswith("either")) else 1
+
+
 @construction(
-    "left_out_at: [DET] noun=FINISH",
-    "left_out_at: EACH noun=FINISH",
-    "left_out_at: [DET] FINISH noun=TREE",
-    "left_out_at: DET ONE AT DET noun=FINISH",
-    "left_out_at: DET TREE AT DET noun=FINISH",
-    "left_out_at: [DET] n=count [ONE] AT DET noun=FINISH",
-    "left_out_at: [DET] n=count TREE AT DET noun=FINISH",
-    "left_out_at: BOTH noun=FINISH",
-    "left_out_at: DET ONE AT BOTH noun=FINISH",
-    "left_out_at: DET TREE AT BOTH noun=FINISH",
+    "left_out_at: ends=each_end",
+    "left_out_at: [DET] FINISH noun=ONE", "end_trees: [DET] FINISH noun=TREE",
+    "left_out_at: [DET] ONE AT ends=each_end", "end_trees: [DET] TREE AT ends=each_end",
+    "left_out_at: [DET] n=count [ONE] AT ends=each_end", "end_trees: [DET] n=count TREE AT ends=each_end",
     cost=0.1,
-)
-def ends_left_out(noun: Lex, n: int = 2) -> tuple[Span, ...] | None:
-    """Compose "its ends", "the end trees" and "the two at the ends" behind "except"."""
-    return BOTH_ENDS if noun.plural and n == 2 else None
+)  # fmt: skip
+def ends_left_out(ends: int = 2, n: int | None = None, noun: Lex | None = None) -> tuple[Span, ...] | None:
+    """Compose "its ends", "the end trees", "the two at the ends" and "the one at either end" behind "except"."""
+    if noun is not None and not noun.plural and "plural" not in noun.features:
+        return None
+    if n is None or n == ends:
+        return BOTH_ENDS
+    return ((1, n), (-n, -1)) if ends == 1 and n > 0 else None
 
 
 @construction("out: positions=left_out", "out: positions=left_out in_ rows=any_rows", cost=0.0)
-def positions_out(positions: tuple[Span, ...], rows: s.Selector | None = None) -> Omission:
-    """Compose "the first and last of row 3"."""
-    return Omission(positions=positions, rows=rows)
+@construction("out: trees=end_trees", "out: trees=end_trees in_ rows=any_rows", cost=0.1)
+def positions_out(
+    positions: tuple[Span, ...] = (), rows: s.Selector | None = None, trees: tuple[Span, ...] = ()
+) -> Omission:
+    """Compose "the first and last of row 3" and "the plants at the ends"."""
+    return Omission(positions=positions or trees, rows=rows, as_trees=bool(trees))
 
 
 @construction("out: n=count OFTHEM", cost=0.1)
@@ -233,6 +243,9 @@ def without(whole: PlaceMeaning, out: Omission, site: Site) -> list[PlaceMeaning
         return None if left is None else [left]
     if out.positions and (row := _only_row_of(whole, site)) is not None:
         return _ends_of_only_row(whole, out, row)
+    of_each = out.as_trees or (whole.shape == "several" and sum(map(sum, out.positions)) == 0)
+    if out.positions and out.rows is None and of_each and are_several_rows(whole.selector) and whole.per is None:
+        return except_positions(whole, out.positions, whole.selector)  # "the plants in each bed except its ends"
     if out.positions and not are_several_rows(whole.selector):
         return except_positions(whole, out.positions, out.rows)
     if out.positions and out.rows is not None:
@@ -251,10 +264,13 @@ def without(whole: PlaceMeaning, out: Omission, site: Site) -> list[PlaceMeaning
 
 
 def _only_row_of(whole: PlaceMeaning, site: Site) -> s.Selector | None:
-    """Return the only row in which all plants of a kind stand, and no others."""
+    """Return the only row in which all plants of a kind stand, and no others; of those of one row, or of the site."""
     kind = as_where(whole.selector)
-    if kind is None or kind.of != s.Trees() or whole.count is not None or whole.per is not None:
+    if kind is None or whole.count is not None or whole.per is not None:
         return None
+    if kind.of != s.Trees():
+        alone = is_one_row(kind.of) and ids_of(kind, site) == ids_of(kind.of, site)
+        return kind.of if alone else None
     rows = filled_rows(kind, site)
     return row_itself(rows[0], site) if len(rows) == 1 else None
 

@@ -9,7 +9,10 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import Likewise, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.clauses import Clause, Trait
 from fieldhand.planning.grammar.places.nouns import AttributeTest, that_pass
+from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.words import Lex
+from fieldhand.planning.selections import as_where
+from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -90,3 +93,38 @@ def those_that_are_so(flag: Lex, noun: Lex, each: Lex | None = None) -> list[Pla
         PlaceMeaning(s.Where(attribute=name, test="eq", value=value), "several", like=Likewise("value"))
         for name, value in flag.value
     ]
+
+
+@construction("few_such: n=count flag=FLAG [ONE]", "few_such: ASMANY flag=FLAG ONE", cost=0.1)
+@construction("few_such: n=count no=WITHOUT", "few_such: n=count ONE no=WITHOUT", cost=0.1)
+@construction("few_such: n=count [ONE] clause=relative", cost=0.1)
+def few_such(
+    n: int = 0, flag: Lex | None = None, no: Lex | None = None, clause: Clause | None = None
+) -> list[tuple[int, AttributeTest | None]] | None:
+    """Compose "two healthy ones", "two that are healthy", "two without" and "as many healthy ones"."""
+    if clause is not None:
+        traits = [one for one in clause if isinstance(one, Trait)]
+        return [(n, traits[0].test)] if len(traits) == len(clause) == 1 else None
+    if no is not None:
+        return [(n, None)] if "leaves_out" in no.features else None
+    return [(n, test) for test in is_so(flag)] if flag is not None else None
+
+
+@construction(
+    "place: whole=place [COMMA] AND few=few_such", "place: whole=place [COMMA] TOGETHERWITH few=few_such",
+    cost=0.2, given=("site",),
+)  # fmt: skip
+def with_few_others(whole: PlaceMeaning, few: tuple[int, AttributeTest | None], site: Site) -> PlaceMeaning | None:
+    """Compose "every cucumber with mildew and two healthy ones", of the same kind."""
+    n, test = few
+    of = as_where(whole.selector)
+    if whole.shape != "several" or of is None or whole.per is not None or whole.optional or whole.count is not None:
+        return None
+    opposite = (of.attribute, of.test, not of.value) if isinstance(of.value, bool) else None
+    if opposite is None or of.test != "eq" or test not in (None, opposite):
+        return None
+    others = s.Where(attribute=of.attribute, test="eq", value=not of.value, of=of.of)
+    wanted = n or len(ids_of(of, site) or ())
+    if not 0 < wanted <= len(ids_of(others, site) or ()):
+        return None
+    return replace(whole, selector=s.UnionOf(parts=(of, s.Take(count=wanted, of=others))))

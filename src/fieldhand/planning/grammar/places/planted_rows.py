@@ -8,8 +8,10 @@ from fieldhand.planning.grammar.places.counted import row_itself
 from fieldhand.planning.grammar.places.flags import is_not_so, is_so
 from fieldhand.planning.grammar.places.nouns import AttributeTest, that_pass
 from fieldhand.planning.grammar.places.numbered import all_of, ids_of
+from fieldhand.planning.grammar.places.rows import OPPOSITE_SIDE
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import are_rows
+from fieldhand.site.counting import rows_from
 from fieldhand.site.model import Site
 from fieldhand.site.planting import Row
 
@@ -129,3 +131,26 @@ def rows_out_of(kind: s.Selector, site: Site) -> s.Selector | None:
         return None
     rows = filled_rows(kind, site)
     return all_of([row_itself(row, site) for row in rows]) if rows else None
+
+
+@construction(
+    "rows: DET noun=ROW [DIRECTLY] NEXTTO kind=crop_area", "rows: DET noun=ROW [DIRECTLY] BESIDE kind=crop_area",
+    "rows: BOTH noun=ROW [DIRECTLY] NEXTTO kind=crop_area", "rows: DET noun=ROW EACHSIDE [OF] kind=crop_area",
+    "rows: DET noun=ROW side=on_side OF kind=crop_area",
+    cost=0.2, given=("site",),
+)  # fmt: skip
+def rows_next_to_crop(noun: Lex, kind: s.Selector, site: Site, side: str = "") -> s.Selector | list[s.Selector] | None:
+    """Compose "the bed next to the onions", which may lie to either side of theirs, and "the beds next to them"."""
+    there = filled_rows(kind, site)
+    found: dict[str, s.Selector] = {}
+    for block in {row.block for row in there}:
+        rows, first_side = rows_from(site, site.planting.blocks[block], "usual")
+        if side and side not in (first_side, OPPOSITE_SIDE.get(first_side)):
+            return None
+        steps = (-1, 1) if not side else (-1,) if side == first_side else (1,)
+        at = {k + step for k, row in enumerate(rows) if row in there for step in steps}
+        beside = [rows[k] for k in sorted(at) if 0 <= k < len(rows) and rows[k] not in there]
+        found |= {row.name: row_itself(row, site) for row in beside}
+    if not noun.plural:
+        return list(found.values()) or None
+    return all_of(list(found.values())) if len(found) > 1 else None

@@ -34,7 +34,7 @@ GRAMMAR = Grammar()
 construction = GRAMMAR.construction
 
 #: Opposite sides.
-_ACROSS = {"north": "south", "south": "north", "east": "west", "west": "east"}
+OPPOSITE_SIDE = {"north": "south", "south": "north", "east": "west", "west": "east"}
 
 
 @construction("row_name: name=NUM", "row_name: name=ROWNAME", cost=0.0)
@@ -81,7 +81,7 @@ def rows_next_to(noun: Lex, row: s.Selector, site: Site, side: str = "") -> s.Se
     counted, first_side = rows_from(site, blocks[0], "usual")
     names = [one.name for one in counted]
     if named.first not in names or (
-        side and (_ACROSS.get(first_side) is None or side not in (first_side, _ACROSS[first_side]))
+        side and (OPPOSITE_SIDE.get(first_side) is None or side not in (first_side, OPPOSITE_SIDE[first_side]))
     ):
         return None
     steps = (-1, 1) if not side else (-1,) if side == first_side else (1,)

@@ -98,6 +98,35 @@ def opposite(
     return PlaceMeaning(s.Across(origin=to.selector, side=side), "one") if to.shape in ("one", "here") else None
 
 
+@construction(
+    "rows_beside_it: in_ EACH [OF] [DET] ROW NEXTTO IT", "rows_beside_it: in_ EACH [OF] [DET] ROW BESIDE IT",
+    "rows_beside_it: in_ DET noun=ROW NEXTTO IT", "rows_beside_it: in_ DET noun=ROW BESIDE IT",
+    "rows_beside_it: in_ DET noun=ROW EACHSIDE [OF] [IT]", "rows_beside_it: in_ EACH ROW EACHSIDE [OF] [IT]",
+    "rows_beside_it: in_ EACH [OF] [DET] ADJOINING ROW", "rows_beside_it: in_ DET ADJOINING noun=ROW",
+    "rows_beside_it: EACHSIDE [OF] [IT]", cost=0.1,
+)  # fmt: skip
+def rows_beside_it(noun: Lex | None = None) -> str | None:
+    """Compose "in each bed beside it", "in the beds on either side" and "on both sides"."""
+    return "both" if noun is None or noun.plural else None
+
+
+@construction(
+    "place: [DET] TREE OPPOSITE [IT] rows_beside_it", "place: [DET] ONE OPPOSITE [IT] rows_beside_it",
+    "place: [DET] TREE OPPOSITE to=place rows_beside_it", cost=0.1, given=("site",),
+)  # fmt: skip
+def opposite_on_both_sides(site: Site, to: PlaceMeaning | None = None) -> PlaceMeaning | None:
+    """Compose "the plant across from it in each bed beside it"."""
+    if to is not None and to.shape not in ("one", "here"):
+        return None
+    runs = {block.runs_east_west for block in site.planting.blocks}
+    if len(runs) != 1:
+        return None
+    sides: tuple[Side, Side] = ("north", "south") if runs == {True} else ("west", "east")
+    origin = s.Here() if to is None else to.selector
+    parts = tuple(s.Across(origin=origin, side=side) for side in sides)
+    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=2)
+
+
 @construction("place: word=OPPOSITE [side=on_side]", cost=0.6)
 def across_the_aisle(word: Lex, side: CountedFrom = "usual") -> PlaceMeaning | None:
     """Compose "across the aisle"."""
