@@ -1,0 +1,62 @@
+"""Rounds with an implement, sides from which rows are always worked, and aisles from one bed across to another."""
+
+from __future__ import annotations
+
+import pytest
+
+from fieldhand.robot.loader import load_robot
+from fieldhand.site.model import Site
+from planning.grammar.field_requests import name, require_plan, require_refusal
+from support.sites.gardens import glasshouse, pasture, vegetable_garden
+
+GARDEN, GLASSHOUSE, PASTURE = vegetable_garden(), glasshouse(), pasture()
+TRACTOR = load_robot("tractor")
+
+ROUNDS = [
+    ("One round with the mower just inside the edge of the cow paddock.", "mow perimeter InZone(cow paddock)"),
+    (
+        "Only the edge of the cow paddock, two rounds with the mower, leave the inside.",
+        "mow perimeter InZone(cow paddock), 2 laps",
+    ),
+    ("Mow one lap just inside the cow paddock.", "mow perimeter InZone(cow paddock)"),
+    ("Mow just inside the edge of the bank.", "mow perimeter InZone(bank)"),
+    ("A lap of the bank with the sprayer.", "spray perimeter InZone(bank)"),
+    ("Take the mower twice round the cow paddock.", "mow perimeter InZone(cow paddock), 2 laps"),
+    ("Three laps with the mower around the pond, please.", "mow perimeter InZone(pond), 3 laps"),
+    ("With the mower, two rounds inside the edge of the bank.", "mow perimeter InZone(bank), 2 laps"),
+    ("I want one lap with the sprayer round the bank at 300 l/ha.", "spray perimeter InZone(bank), rate_l_ha 300"),
+]
+
+ROWS = [
+    ("Film beds 2 through 5, always from their west side.", "film rows Rows(2, 5), west"),
+    ("Film beds 2 to 5, always from the west.", "film rows Rows(2, 5), west"),
+    ("Film beds 2 to 5, each one from its east side.", "film rows Rows(2, 5), east"),
+    ("From the west side, film beds 2 to 5.", "film rows Rows(2, 5), west"),
+    ("Film beds 2 to 5. Always from the west side.", "film rows Rows(2, 5), west"),
+    ("Film the squash, every time from the east.", "film rows Where(crop, eq, squash), east"),
+    ("Mow the aisles from bed 2 across to bed 5.", "mow aisles Rows(2, 5)"),
+    ("Mow every aisle from bed 2 over to bed 5.", "mow aisles Rows(2, 5)"),
+]
+
+
+@pytest.mark.parametrize(("request_", "plan"), ROUNDS, ids=name)
+def test_rounds_with_an_implement(request_: str, plan: str) -> None:
+    require_plan(PASTURE, TRACTOR, request_, plan)
+
+
+@pytest.mark.parametrize(("request_", "plan"), ROWS, ids=name)
+def test_rows_from_a_side_and_aisles_across(request_: str, plan: str) -> None:
+    require_plan(GARDEN, TRACTOR, request_, plan)
+
+
+@pytest.mark.parametrize(
+    ("site", "request_", "why"),
+    [
+        (PASTURE, "One round with the mower just outside the edge of the cow paddock.", ""),
+        (PASTURE, "Mow one lap inside the pond.", ""),
+        (GARDEN, "Film beds 2 to 5, always from the north.", ""),
+    ],
+    ids=name,
+)
+def test_other_sides_are_not_planned(site: Site, request_: str, why: str) -> None:
+    require_refusal(site, TRACTOR, request_, why)
