@@ -35,7 +35,20 @@ ROWS = [
     ("Film beds 2 to 5. Always from the west side.", "film rows Rows(2, 5), west"),
     ("Film the squash, every time from the east.", "film rows Where(crop, eq, squash), east"),
     ("Mow the aisles from bed 2 across to bed 5.", "mow aisles Rows(2, 5)"),
+    ("The grass is up again, mow the aisles from bed 2 across to bed 5.", "mow aisles Rows(2, 5)"),
+    ("Film bed 3, driving along the east side of it.", "film rows Rows(3, 3), east"),
     ("Mow every aisle from bed 2 over to bed 5.", "mow aisles Rows(2, 5)"),
+]
+
+AISLES = [
+    (
+        "Film the melons from the aisle between rows 3 and 4, no faster than 0.5 m/s.",
+        "film rows Where(crop, eq, melon), north | speed 0.5",
+    ),
+    ("Film row 4 from the path between rows 3 and 4.", "film rows Rows(4, 4), south"),
+    ("Film row 4, driving along the aisle between rows 3 and 4.", "film rows Rows(4, 4), south"),
+    ("From the aisle between rows 3 and 4 spray the melons.", "spray rows Where(crop, eq, melon), north"),
+    ("Film row 1 from between rows 1 and 2.", "film rows Rows(1, 1), north"),
 ]
 
 
@@ -49,12 +62,19 @@ def test_rows_from_a_side_and_aisles_across(request_: str, plan: str) -> None:
     require_plan(GARDEN, TRACTOR, request_, plan)
 
 
+@pytest.mark.parametrize(("request_", "plan"), AISLES, ids=name)
+def test_rows_from_an_aisle(request_: str, plan: str) -> None:
+    require_plan(GLASSHOUSE, TRACTOR, request_, plan)
+
+
 @pytest.mark.parametrize(
     ("site", "request_", "why"),
     [
         (PASTURE, "One round with the mower just outside the edge of the cow paddock.", ""),
         (PASTURE, "Mow one lap inside the pond.", ""),
         (GARDEN, "Film beds 2 to 5, always from the north.", ""),
+        (GARDEN, "The grass is to be mown, then spray bed 3.", "grass"),
+        (GLASSHOUSE, "Film row 1 from the aisle between rows 3 and 4.", "aisle"),
     ],
     ids=name,
 )

@@ -242,7 +242,10 @@ def worked_from_a_side(one: WorkCommand, each: bool, side: Lex, used: int, site:
     "work: one=work [COMMA] [AT] side=own_side", "work: one=work [COMMA] [and_or_but] each_from side=own_side",
     "work: one=work FULLSTOP each_from side=own_side", "work: each_from side=own_side [COMMA] one=work",
     "work: one=work [COMMA] ALONG side=own_side", "work: one=work [COMMA] GO AT side=own_side",
-    "work: one=work [COMMA] GO ALONG side=own_side", cost=0.1, given=("site",),
+    "work: one=work [COMMA] GO ALONG side=own_side",
+    "work: one=work [COMMA] GO ALONG side=own_side OF IT",
+    "work: one=work [COMMA] GO ALONG side=own_side OF EACH [ONE]",
+    "work: one=work [COMMA] STAYV AT side=own_side", cost=0.1, given=("site",),
 )  # fmt: skip
 def worked_on_one_side(one: WorkCommand, side: TreeSide, used: int, site: Site) -> WorkCommand | None:
     """Compose "spray rows 3 to 8 at 300 l/ha on the west side" and "film the carrots from the west side"."""
