@@ -5,12 +5,27 @@ from __future__ import annotations
 import pytest
 
 from fieldhand.robot.loader import load_robot
+from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from planning.grammar.field_requests import name, require_plan, require_refusal
-from support.sites.gardens import glasshouse, pasture, vegetable_garden
+from support.sites.gardens import box, glasshouse, mark, pasture, vegetable_garden
+from support.sites.points import read
 
+
+def _ponds() -> Site:
+    return read(
+        box(0, 0, 120, 80, kind="boundary", name="common"),
+        box(10, 10, 25, 20, kind="pond", name="duck pond"),
+        box(50, 10, 80, 40, kind="zone", name="slope"),
+        mark(100, 40, kind="gate", name="lane gate", width_m=4),
+        mark(5, 40, kind="gate", name="wood gate", width_m=4),
+        mark(100, 20, kind="start", name="shed"),
+    )
+
+
+POND = _ponds()
 GARDEN, GLASSHOUSE, PASTURE = vegetable_garden(), glasshouse(), pasture()
-TRACTOR = load_robot("tractor")
+AMIGA, TRACTOR = load_robot("amiga"), load_robot("tractor")
 
 ROUNDS = [
     ("One round with the mower just inside the edge of the cow paddock.", "mow perimeter InZone(cow paddock)"),
@@ -51,6 +66,29 @@ AISLES = [
     ("Film row 1 from between rows 1 and 2.", "film rows Rows(1, 1), north"),
 ]
 
+POND_FILMED = "film perimeter InZone(duck pond)"
+
+BANKS = [
+    (TRACTOR, "Go once round the pond and film the bank as you go.", POND_FILMED),
+    (TRACTOR, "Go once round the duck pond, filming the edge.", POND_FILMED),
+    (TRACTOR, "Drive twice around the pond, filming the bank on the way.", f"{POND_FILMED}, 2 laps"),
+    (TRACTOR, "Go round the pond and film as you go.", POND_FILMED),
+    (TRACTOR, "Film the bank of the pond.", POND_FILMED),
+    (TRACTOR, "Go round the edge of the slope and mow as you drive.", "mow perimeter InZone(slope)"),
+    (
+        AMIGA,
+        "Go round the pond two metres off the water and take a ground photo every 10 m.",
+        "for Transect(10, edge, duck pond, 2): [picture(view ground)]",
+    ),
+    (AMIGA, "Six photos round the pond, 2 m from the bank.", "for Transect(6, edge, duck pond, 2): [picture]"),
+    (AMIGA, "Moisture every 8 m round the pond, 3 m off the shore.", "for Transect(8, edge, duck pond, 3): [moisture]"),
+]
+
+
+@pytest.mark.parametrize(("robot", "request_", "plan"), BANKS, ids=name)
+def test_banks_are_worked_on_the_way_round(robot: RobotProfile, request_: str, plan: str) -> None:
+    require_plan(POND, robot, request_, plan)
+
 
 @pytest.mark.parametrize(("request_", "plan"), ROUNDS, ids=name)
 def test_rounds_with_an_implement(request_: str, plan: str) -> None:
@@ -72,6 +110,7 @@ def test_rows_from_an_aisle(request_: str, plan: str) -> None:
     [
         (PASTURE, "One round with the mower just outside the edge of the cow paddock.", ""),
         (PASTURE, "Mow one lap inside the pond.", ""),
+        (POND, "Go round the slope and mow the bank as you go.", "bank"),
         (GARDEN, "Film beds 2 to 5, always from the north.", ""),
         (GARDEN, "The grass is to be mown, then spray bed 3.", "grass"),
         (GLASSHOUSE, "Film row 1 from the aisle between rows 3 and 4.", "aisle"),
