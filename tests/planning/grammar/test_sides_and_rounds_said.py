@@ -110,6 +110,8 @@ def test_rows_from_an_aisle(request_: str, plan: str) -> None:
     [
         (PASTURE, "One round with the mower just outside the edge of the cow paddock.", ""),
         (PASTURE, "Mow one lap inside the pond.", ""),
+        (POND, "Mow the slope, and if it rains wait beside the pond until it stops.", "but not wait elsewhere"),
+        (POND, "Mow the slope. If it rains, go to the lane gate and wait there.", "but not wait elsewhere"),
         (POND, "Go round the slope and mow the bank as you go.", "bank"),
         (GARDEN, "Film beds 2 to 5, always from the north.", ""),
         (GARDEN, "The grass is to be mown, then spray bed 3.", "grass"),
