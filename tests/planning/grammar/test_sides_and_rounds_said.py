@@ -7,7 +7,7 @@ import pytest
 from fieldhand.robot.loader import load_robot
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
-from planning.grammar.field_requests import name, require_plan, require_refusal
+from planning.grammar.field_requests import name, require_plan, require_question, require_refusal
 from support.sites.gardens import box, glasshouse, mark, pasture, vegetable_garden
 from support.sites.points import read
 
@@ -25,7 +25,7 @@ def _ponds() -> Site:
 
 POND = _ponds()
 GARDEN, GLASSHOUSE, PASTURE = vegetable_garden(), glasshouse(), pasture()
-AMIGA, TRACTOR = load_robot("amiga"), load_robot("tractor")
+AMIGA, HUSKY, TRACTOR = load_robot("amiga"), load_robot("husky"), load_robot("tractor")
 
 ROUNDS = [
     ("One round with the mower just inside the edge of the cow paddock.", "mow perimeter InZone(cow paddock)"),
@@ -83,6 +83,48 @@ BANKS = [
     (AMIGA, "Six photos round the pond, 2 m from the bank.", "for Transect(6, edge, duck pond, 2): [picture]"),
     (AMIGA, "Moisture every 8 m round the pond, 3 m off the shore.", "for Transect(8, edge, duck pond, 3): [moisture]"),
 ]
+
+
+DRIVES = "[go GateIs(lane gate); go GateIs(wood gate)]"
+
+SHUTTLES = [
+    (
+        "Keep going back and forth between the lane gate and the wood gate till the battery is down to 40 percent, "
+        "then home.",
+        f"100 times until battery <= 40: {DRIVES}",
+    ),
+    (
+        "Patrol between the lane gate and the wood gate until the battery is below 30 %.",
+        f"100 times until battery <= 30: {DRIVES}",
+    ),
+    (
+        "Until the battery is at 40 percent, patrol between the lane gate and the wood gate.",
+        f"100 times until battery <= 40: {DRIVES}",
+    ),
+    ("Go back and forth between the lane gate and the wood gate five times.", f"5 times: {DRIVES}"),
+    (
+        "Read CO2 on the slope, then go to and fro between the lane gate and the wood gate twice.",
+        f"co2 @ PointsIn(slope); 2 times: {DRIVES}",
+    ),
+    (
+        "Go back and forth between the slope and the wood gate 3 times, then read CO2 at the lane gate.",
+        "3 times: [go PointsIn(slope); go GateIs(wood gate)]; co2 @ GateIs(lane gate)",
+    ),
+    (
+        "Go back and forth between the lane gate and the wood gate with a CO2 reading at each until the battery is at "
+        "40 %.",
+        "100 times until battery <= 40: [go GateIs(lane gate); co2; go GateIs(wood gate); co2]",
+    ),
+]
+
+
+@pytest.mark.parametrize(("request_", "plan"), SHUTTLES, ids=name)
+def test_drives_between_two_places(request_: str, plan: str) -> None:
+    require_plan(POND, HUSKY, request_, plan)
+
+
+def test_drives_between_two_places_ask_how_often() -> None:
+    require_question(POND, HUSKY, "Go back and forth between the lane gate and the wood gate.", 0)
 
 
 @pytest.mark.parametrize(("robot", "request_", "plan"), BANKS, ids=name)
