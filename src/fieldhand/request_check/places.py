@@ -172,6 +172,7 @@ def _rows(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
     ranks = {rank for _, row in rows for rank in _ranks(row.first, site)} if counted_there else set()
     beside = _BESIDE_ROWS.search(facts.text) is not None
     ranks |= {int(row.first) + step for _, row in rows for step in (-1, 1) if beside or _is_aisle_of(row, plan)}
+    ranks |= _worked_from(facts, plan)
     for amount in facts.amounts:
         if int(amount.values[0]) in ranks or not _is_row(facts, amount) or _of_named_tree(facts, plan, amount):
             continue
@@ -194,6 +195,13 @@ def _rows(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMism
                     what=message("the plan names row {name}, but the request does not", name=name),
                     node=node,
                 )
+
+
+def _worked_from(facts: RequestFacts, plan: PlanFacts) -> set[int]:
+    """Return the rows of an aisle in which the robot drives for work on one side of a row; none without such work."""
+    sides = {getattr(node, "sides", "one") for node in plan.nodes}
+    numbers = {*facts.whole_numbers}
+    return {n for n in numbers if numbers & {n - 1, n + 1}} if sides & {*_SIDES} and "between" in facts.words else set()
 
 
 def _is_aisle_of(row: s.Rows, plan: PlanFacts) -> bool:

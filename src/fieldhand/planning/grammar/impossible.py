@@ -283,6 +283,21 @@ def done_by_something_else(work: Lex) -> Impossible:
     )
 
 
+@construction(
+    "trigger [COMMA] HOLD AT place [UNTILOVER]", "trigger [COMMA] HOLD AT region [UNTILOVER]",
+    "trigger [COMMA] HOLD at_edge [UNTILOVER]", "trigger [COMMA] HOLD zone_beside [UNTILOVER]",
+    "trigger [COMMA] HOLD BESIDE place [UNTILOVER]", "trigger [COMMA] HOLD BESIDE region [UNTILOVER]",
+    "trigger [COMMA] HOLD NEAR place [UNTILOVER]", "trigger [COMMA] HOLD NEAR region [UNTILOVER]",
+    "trigger [COMMA] drive [COMMA] AND HOLD [UNTILOVER]",
+)  # fmt: skip
+def waits_elsewhere() -> Impossible:
+    """Compose "if it rains, wait beside the barn until it stops"."""
+    return Impossible(
+        message("when this happens, the robot can wait where it is or come home for good, but not wait elsewhere"),
+        message("say only 'wait', or 'come home'"),
+    )
+
+
 @construction("AISLE")
 def in_an_aisle() -> Impossible:
     """Compose "the aisle"."""

@@ -679,6 +679,8 @@ class Again:
         whole: True if the phrase says that all of it is repeated, from the first place on.
         both: True if the phrase says that it was done at two places ("both again").
         rest_s: Seconds of the wait before each repetition ("half an hour later").
+        drives: Places between which the robot only drives, which is all that is repeated.
+        battery: Charge of the battery in percent at which it ends; None if the phrase gives none.
     """
 
     place: PlaceMeaning | None
@@ -688,6 +690,8 @@ class Again:
     whole: bool = False
     both: bool = False
     rest_s: float = 0.0
+    drives: tuple[PlaceMeaning, ...] = ()
+    battery: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

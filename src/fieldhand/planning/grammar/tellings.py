@@ -38,6 +38,8 @@ _VERBS = frozenset({"AUXILIARY", "IS", "STATES"})
 #: Categories of people, and endings of the adjectives by which an unknown word is told from a noun.
 _PEOPLE = frozenset({"PAPERWORK", "PEOPLE"})
 _ADJECTIVES = ("ous", "ful", "ing", "ish", "ed", "able", "ible", "ive", "ic", "less")
+#: Categories of what grows between rows, of which something is told ("the weeds").
+_GROWTH = frozenset({"AISLEGROUND", "GRASSWORD"})
 #: Categories of words between a subject and its verb.
 _ADVERBS = frozenset({"FILLER", "HARMLESS", "INEACHCASE"})
 #: Categories of words that refer to what was said before.
@@ -187,8 +189,8 @@ def _has_verb(begun: Sequence[int], known: WordKinds, *, sentence: bool) -> bool
         return any(at > 0 for at in verbs) or (len(begun) > 3 and sum(not known.kinds[k] for k in begun) > 1)
     person = bool(known.kinds[begun[1]] & _PEOPLE)
     nouns = begun[1 : verbs[0]] if verbs else ()
-    if nouns and "IS" in known.kinds[begun[verbs[0]]] and not any(known.kinds[k] for k in nouns):
-        return True  # "the caterpillars are awful"
+    if nouns and known.kinds[begun[verbs[0]]] & {"IS", "AUXILIARY"} and all(known.kinds[k] <= _GROWTH for k in nouns):
+        return True  # "the caterpillars are awful" and "the grass is up again"
     return ("OWNER" in first or person) and any(at > 1 for at in verbs)
 
 

@@ -9,11 +9,11 @@ from itertools import pairwise
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.working import Tract
-from fieldhand.planning.grammar.meaning import PlaceMeaning
+from fieldhand.planning.grammar.meaning import PlaceMeaning, WorkCommand
 from fieldhand.planning.grammar.places.counted import row_itself
 from fieldhand.planning.grammar.places.numbered import all_of, ids_of
 from fieldhand.planning.grammar.places.numbers import name_of
-from fieldhand.planning.grammar.places.planted_rows import filled_rows
+from fieldhand.planning.grammar.places.planted_rows import filled_rows, rows_out_of
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import are_rows, are_several_rows, over
 from fieldhand.site.counting import rows_from
@@ -206,6 +206,32 @@ def aisles_of_area(part: Tract, where: s.Selector) -> Tract | None:
     if part.selector == s.Trees():
         return Tract(where, part.mode, every=part.every)
     return Tract(over(part.selector, where), part.mode, every=part.every) if are_rows(part.selector) else None
+
+
+@construction(
+    "from_aisle: FROM [DET] aisle_noun [WHICH] [IS] gaps=gaps", "from_aisle: FROM gaps=gaps",
+    "from_aisle: FROM [DET] aisle_noun [WHICH] [IS] pairs=beside",
+    "from_aisle: GO [FROM] ALONG [DET] aisle_noun [WHICH] [IS] gaps=gaps",
+    cost=0.0, given=("site",),
+)  # fmt: skip
+def from_aisle(site: Site, gaps: s.Selector | None = None, pairs: tuple[Aisle, ...] = ()) -> Aisle | None:
+    """Compose "from the aisle between rows 3 and 4"."""
+    there = pairs if gaps is None else aisles_in(gaps, site)
+    return there[0] if len(there) == 1 else None
+
+
+@construction(
+    "work: one=work [COMMA] aisle=from_aisle", "work: aisle=from_aisle [COMMA] one=work", cost=0.1, given=("site",)
+)
+def worked_from_an_aisle(one: WorkCommand, aisle: Aisle, used: int, site: Site) -> WorkCommand | None:
+    """Compose "film row 4 from the aisle between rows 3 and 4": on the side of it on which the other row is."""
+    if one.along is None or one.mode != "rows" or one.sides != "one":
+        return None
+    rows = filled_rows(rows_out_of(one.along, site) or one.along, site)
+    if len(rows) != 1 or rows[0] not in aisle:
+        return None
+    other = next(row for row in aisle if row is not rows[0])
+    return replace(one, sides=_side_of(other, rows[0], site), used=used)
 
 
 # --- places in aisles -------------------------------------------------------------------------------------------------

@@ -52,12 +52,21 @@ def laps(n: int = 1, noun: Lex | None = None) -> int | None:
     return None if noun is not None and noun.plural else n
 
 
-@construction("lapped: OF line=edge_line", "lapped: OF where=region", "lapped: OF site", "lapped: edge=edge", cost=0.1)
+@construction(
+    "lapped: OF line=edge_line", "lapped: OF where=region", "lapped: OF site", "lapped: edge=edge",
+    "lapped: [AROUND] inside=INSIDE where=region", cost=0.1, given=("site",),
+)  # fmt: skip
 def lapped(
-    line: s.Selector | None = None, where: s.Selector | None = None, edge: Tract | None = None
+    site: Site,
+    line: s.Selector | None = None,
+    where: s.Selector | None = None,
+    edge: Tract | None = None,
+    inside: Lex | None = None,
 ) -> s.Selector | None:
-    """Compose "of the boundary" and "around the pond" behind "two laps"."""
+    """Compose "of the boundary", "around the pond" and "just inside the paddock" behind "two laps"."""
     if where is not None and (are_rows(where) or where == edges()):
+        return None
+    if inside is not None and where is not None and (is_keep_out(where, site) or as_zone(where) is None):
         return None
     if edge is not None and edge.heading != "any":
         return None
@@ -108,6 +117,15 @@ def on_one_side_of_edge(one: WorkCommand, used: int, out: Lex | None = None) -> 
 def inside_fence(fence: s.Selector, site: Site) -> Tract | None:
     """Compose "just inside the deer fence", which stands around the site; a pond has no such side."""
     return Tract(fence, "perimeter") if is_keep_out(fence, site) and goes_around(fence, site) else None
+
+
+@construction(
+    "edge: [AROUND] INSIDE line=edge_line", "edge: [AROUND] ALONG [DET] INSIDE line=edge_line", cost=0.1,
+    given=("site",),
+)  # fmt: skip
+def inside_edge(line: s.Selector, site: Site) -> Tract | None:
+    """Compose "just inside the edge of the paddock", where the robot drives along it anyway; of a pond it cannot."""
+    return None if is_keep_out(line, site) and not goes_around(line, site) else Tract(line, "perimeter")
 
 
 def goes_around(fence: s.Selector, site: Site) -> bool:
@@ -169,6 +187,26 @@ def worked_in_laps(verb: Lex, used: int, times: int = 1, where: s.Selector | Tra
     made = None if along is None else _driven(along, times, used)
     heading = where.heading if isinstance(where, Tract) else "any"
     return None if made is None else replace(made, action=verb.value, heading=heading)
+
+
+@construction(
+    "worked_laps: times=laps [COMMA] WITH [DET] verb=WORKN", "worked_laps: WITH [DET] verb=WORKN [COMMA] times=laps",
+    "worked_laps: times=often [COMMA] WITH [DET] verb=WORKN", "worked_laps: WITH [DET] verb=WORKN [COMMA] times=often",
+    "worked_laps: [DET] verb=WORKN times=laps", "worked_laps: [DET] verb=WORKN times=often", cost=0.1,
+)  # fmt: skip
+def laps_with(verb: Lex, times: int) -> tuple[Lex, int]:
+    """Compose "two rounds with the mower" and "(run) the mower twice"."""
+    return verb, times
+
+
+@construction(
+    "work: [TAKE] laps=worked_laps where=lapped", "work: GO [FOR] laps=worked_laps where=lapped",
+    "work: USE laps=worked_laps where=lapped",
+    "work: [ONLY] where=edge [COMMA] laps=worked_laps", "work: GO where=edge [COMMA] laps=worked_laps", cost=0.1,
+)  # fmt: skip
+def worked_laps(laps: tuple[Lex, int], where: s.Selector | Tract, used: int) -> WorkCommand | None:
+    """Compose "one round with the mower along the fence" and "only the edge, two rounds with the mower"."""
+    return worked_in_laps(laps[0], used, laps[1], where)
 
 
 @construction(

@@ -222,19 +222,30 @@ def from_a_direction(side: Lex) -> Adjunct | None:
     return Adjunct(_on_own_side, side.value, of_place=True) if side.value in SIDES else None
 
 
-@construction("work: one=work [COMMA] FROM [DET] side=DIR", cost=0.2, given=("site",))
-def worked_from_a_side(one: WorkCommand, side: Lex, used: int, site: Site) -> WorkCommand | None:
+@construction("each_from: FROM", cost=0.0)
+@construction("each_from: each=EACH [ONE] FROM", "each_from: each=INEACHCASE [each=EACH] FROM", cost=0.0)
+def each_from(each: Lex | None = None) -> bool:
+    """Compose "from", and "each from" and "always from", which speak of a side and not of an order."""
+    return each is not None
+
+
+@construction("work: one=work [COMMA] [and_or_but] each=each_from [DET] side=DIR", cost=0.2, given=("site",))
+def worked_from_a_side(one: WorkCommand, each: bool, side: Lex, used: int, site: Site) -> WorkCommand | None:
     """Compose "film row 4 from the east", which runs north to south; from the south it may be a direction."""
     if one.mode != "rows" or one.sides != "one" or one.along is None:
         return None
-    in_one = is_one_row(one.along) or is_one_row(rows_out_of(one.along, site) or s.Trees())
+    in_one = each or is_one_row(one.along) or is_one_row(rows_out_of(one.along, site) or s.Trees())
     return replace(one, sides=side.value, used=used) if in_one and side.value in across_rows(one.along, site) else None
 
 
 @construction(
-    "work: one=work [COMMA] [AT] side=own_side", "work: one=work [COMMA] [EACH] FROM side=own_side",
+    "work: one=work [COMMA] [AT] side=own_side", "work: one=work [COMMA] [and_or_but] each_from side=own_side",
+    "work: one=work FULLSTOP each_from side=own_side", "work: each_from side=own_side [COMMA] one=work",
     "work: one=work [COMMA] ALONG side=own_side", "work: one=work [COMMA] GO AT side=own_side",
-    "work: one=work [COMMA] GO ALONG side=own_side", cost=0.1, given=("site",),
+    "work: one=work [COMMA] GO ALONG side=own_side",
+    "work: one=work [COMMA] GO ALONG side=own_side OF IT",
+    "work: one=work [COMMA] GO ALONG side=own_side OF EACH [ONE]",
+    "work: one=work [COMMA] STAYV AT side=own_side", cost=0.1, given=("site",),
 )  # fmt: skip
 def worked_on_one_side(one: WorkCommand, side: TreeSide, used: int, site: Site) -> WorkCommand | None:
     """Compose "spray rows 3 to 8 at 300 l/ha on the west side" and "film the carrots from the west side"."""

@@ -8,6 +8,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.meaning import (
     Again,
+    Amount,
     CaptureCommand,
     Connective,
     DriveCommand,
@@ -16,6 +17,9 @@ from fieldhand.planning.grammar.meaning import (
     Said,
     Thing,
 )
+from fieldhand.planning.grammar.places.sampling import bare_points, is_keep_out
+from fieldhand.planning.grammar.words import Lex
+from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -34,6 +38,7 @@ class Shuttle:
         times: Number of rounds; 0 if the phrase gives none.
         of_times: Tokens of how often.
         things: What is captured at each of them.
+        battery: Charge of the battery in percent at which it ends.
     """
 
     places: tuple[PlaceMeaning, PlaceMeaning]
@@ -41,6 +46,7 @@ class Shuttle:
     times: int = 0
     of_times: int = 0
     things: tuple[Thing, ...] = ()
+    battery: float | None = None
 
 
 @construction("rounds_made: n=often", "rounds_made: n=count ROUND", "rounds_made: FOR n=count ROUND", cost=0.0)
@@ -49,9 +55,20 @@ def rounds_made(n: int, used: int) -> tuple[int, int] | None:
     return (n, used) if 1 < n <= _MOST_ROUNDS else None
 
 
+@construction("turning_place: place=place", "turning_place: where=region", cost=0.0, given=("site",))
+def turning_place(
+    site: Site, place: PlaceMeaning | None = None, where: s.Selector | None = None
+) -> PlaceMeaning | None:
+    """Compose "tree 4" and "the trough", to whose middle the robot drives."""
+    if where is None:
+        return place
+    middle = None if is_keep_out(where, site) else bare_points(where, site, 1)
+    return None if middle is None else PlaceMeaning(middle, "one")
+
+
 @construction(
-    "two_places: BETWEEN first=place AND second=place",
-    "two_places: FROM first=place AT second=place",
+    "two_places: BETWEEN first=turning_place AND second=turning_place",
+    "two_places: FROM first=turning_place AT second=turning_place",
     cost=0.0,
 )
 def two_places(first: PlaceMeaning, second: PlaceMeaning) -> tuple[PlaceMeaning, PlaceMeaning] | None:
@@ -69,10 +86,20 @@ def both_places(both: PlaceMeaning) -> tuple[PlaceMeaning, PlaceMeaning] | None:
     return first, second
 
 
-@construction("shuttle: [GO] TOANDFRO places=two_places", cost=0.1)
-def to_and_fro(places: tuple[PlaceMeaning, PlaceMeaning], used: int) -> Shuttle:
-    """Compose "go back and forth between tree 4 and tree 9"."""
-    return Shuttle(places, used)
+@construction(
+    "shuttle: [KEEPON] [GO] TOANDFRO places=two_places", "shuttle: [KEEPON] verb=GO places=two_places", cost=0.1
+)
+def to_and_fro(places: tuple[PlaceMeaning, PlaceMeaning], used: int, verb: Lex | None = None) -> Shuttle | None:
+    """Compose "go back and forth between tree 4 and tree 9" and "patrol between the gates"."""
+    return Shuttle(places, used) if verb is None or "patrols" in verb.features else None
+
+
+@construction("shuttle: one=shuttle [COMMA] UNTIL low=low_battery", cost=0.1)
+@construction("shuttle: [KEEPON] UNTIL low=low_battery [COMMA] one=shuttle", cost=0.1)
+def shuttle_until_low(one: Shuttle, low: Amount, used: int) -> Shuttle | None:
+    """Compose "back and forth between the gates until the battery is down to 40 %"."""
+    known = one.battery is None and not one.times
+    return replace(one, times=_MOST_ROUNDS, battery=low.number, of_times=used & ~one.used) if known else None
 
 
 @construction(
@@ -123,6 +150,13 @@ def shuttle_with(
     return replace(one, things=things, used=used & ~one.of_times) if fits and not one.things else None
 
 
+@construction("command: one=shuttle", cost=0.2)
+def only_driven(one: Shuttle) -> Again | None:
+    """Compose "go back and forth between the gates until the battery is at 40 %", with nothing done there."""
+    used = one.used | one.of_times
+    return None if one.things else Again(None, used, times=one.times, drives=one.places, battery=one.battery)
+
+
 @construction("said: one=shuttle", cost=0.2)
 def shuttled(one: Shuttle) -> Said | None:
     """Compose "go back and forth between tree 4 and tree 9 three times" as the first commands."""
@@ -134,5 +168,5 @@ def shuttled(one: Shuttle) -> Said | None:
         before = then if made else None
         made.append(LinkedCommand(before, DriveCommand(place, one.used)))
         made.append(LinkedCommand(then, CaptureCommand(one.things, PlaceMeaning(s.Here(), "here"), one.used)))
-    again = Again(None, one.of_times, times=one.times, in_all=True, whole=True)
+    again = Again(None, one.of_times, times=one.times, in_all=True, whole=True, battery=one.battery)
     return Said((*made, LinkedCommand(then, again)))

@@ -132,6 +132,38 @@ def with_its_tool(one: WorkCommand, verb: Lex, used: int) -> WorkCommand | None:
 
 
 @construction(
+    "work: one=work [COMMA] [AND] verb=WORKV [DET] EDGE [way=ONPATH]",
+    "work: one=work [COMMA] [AND] verb=WORKV [DET] bank=water_edge [way=ONPATH]",
+    "work: one=work [COMMA] [AND] verb=WORKV where=edge [way=ONPATH]",
+    "work: one=work [COMMA] [AND] verb=WORKV [it=IT] way=ONPATH", "work: one=work [COMMA] AND verb=WORKV it=IT",
+    cost=0.1,
+    given=("robot", "site"),
+)  # fmt: skip
+def driven_and_worked(
+    one: WorkCommand,
+    verb: Lex,
+    used: int,
+    robot: RobotProfile,
+    site: Site,
+    bank: Lex | None = None,
+    where: Tract | None = None,
+    it: Lex | None = None,
+    way: Lex | None = None,
+) -> WorkCommand | None:
+    """Compose "go once round the pond and film the bank as you go": the edge that is driven along is worked."""
+    del way
+    implement = robot.action[verb.value].implement
+    covers = implement is None or implement.covers
+    if one.action or one.along is None or one.mode != "perimeter" or (covers and it is not None):
+        return None
+    if bank is not None and not is_keep_out(one.along, site):
+        return None
+    if where is not None and (where.mode != "perimeter" or where.heading != "any" or where.selector != one.along):
+        return None
+    return replace(one, action=str(verb.value), used=used)
+
+
+@construction(
     "work: one=work [COMMA] WITH [DET] verb=WORKN AT [DET] EDGE [COMMA] [WHOLETIME]",
     "work: one=work [COMMA] WITH [DET] verb=WORKN AT aim=region [COMMA] [WHOLETIME]",
     cost=0.3,

@@ -183,6 +183,8 @@ def headlands(noun: Lex) -> Tract:
     "edge_line: [DET] EDGE OF where=region",
     "edge_line: [DET] EDGE OF site",
     "edge_line: [DET] zone=ZONEPOSS EDGE",
+    "edge_line: [DET] water_edge OF where=region",
+    "edge_line: [DET] zone=ZONEPOSS water_edge",
     cost=0.0,
 )
 def edge_line(where: s.Selector | None = None, zone: Lex | None = None) -> s.Selector | None:

@@ -40,7 +40,13 @@ from fieldhand.planning.grammar.dialogue.plans import (
     node_at,
     with_node,
 )
-from fieldhand.planning.grammar.dialogue.repeating import done_more_times, moved_to, process_again, repeated_in
+from fieldhand.planning.grammar.dialogue.repeating import (
+    done_more_times,
+    driven_to_and_fro,
+    moved_to,
+    process_again,
+    repeated_in,
+)
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
@@ -679,6 +685,8 @@ def _are_of_each(things: tuple[Thing, ...]) -> bool:
 
 def capture_again(setting: Setting, state: DialogueState, command: Again) -> DialogueState:
     """Return the state after what was done at the last place was done at another one."""
+    if command.drives:
+        return driven_to_and_fro(setting, capture_elided(setting, state), command)
     if command.times:
         return done_more_times(setting, capture_elided(setting, state), command)
     place, steps = command.place, _steps_before(state)

@@ -19,7 +19,14 @@ from fieldhand.planning.grammar.dialogue.plans import (
     with_node,
     with_selector,
 )
-from fieldhand.planning.grammar.dialogue.state import DialogueState, NotComposed, Setting, done_at, with_step
+from fieldhand.planning.grammar.dialogue.state import (
+    DialogueState,
+    NotComposed,
+    OpenQuestion,
+    Setting,
+    done_at,
+    with_step,
+)
 from fieldhand.planning.grammar.meaning import Again, DriveCommand, PlaceMeaning, wait_thing
 from fieldhand.planning.grammar.places.sampling import bare_zone, whole_zone
 from fieldhand.planning.selections import (
@@ -35,6 +42,7 @@ from fieldhand.planning.selections import (
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
 from fieldhand.task.aggregates import Aggregate, CompareSeries, CountReadings, MeanKnown
+from fieldhand.task.battery_condition import BatteryBelow
 
 
 def process_again(setting: Setting, state: DialogueState, command: Again) -> DialogueState:
@@ -100,6 +108,29 @@ def _process_at_each(setting: Setting, state: DialogueState, command: Again, pla
     return done_at(replace(done, loop=inside), place)
 
 
+def driven_to_and_fro(setting: Setting, state: DialogueState, command: Again) -> DialogueState:
+    """Return the state after the robot drove between places several times, with nothing done there.
+
+    Raises:
+        NotComposed: A place before it has its own work to come.
+        OpenQuestion: It does not say how often.
+    """
+    if not command.times:
+        asked = message("'{said}': how many times?", said=setting.quoted(command.used))
+        raise OpenQuestion(asked, command.used)
+    if state.awaits_command or state.open or state.scope:
+        raise NotComposed(message("it is not clear what is repeated, and where", context="fault"))
+    said = setting.spans_of(command.used)
+    body = p.InOrder(id="", steps=tuple(p.GoTo(id="", place=one.selector, said=said) for one in command.drives))
+    node = p.Repeat(id="", times=command.times, body=body, until=_until_battery(command), said=said)
+    state = with_step(replace(state, captured=None, loop=None, choice=None, things=()), node)
+    return replace(state, where=None, commands_in_sentence=state.commands_in_sentence + 1)
+
+
+def _until_battery(command: Again) -> BatteryBelow | None:
+    return None if command.battery is None else BatteryBelow(percent=command.battery)
+
+
 def done_more_times(setting: Setting, state: DialogueState, command: Again) -> DialogueState:
     """Return the state after all that was done so far, at one place or at each of several, was done several times.
 
@@ -119,7 +150,8 @@ def done_more_times(setting: Setting, state: DialogueState, command: Again) -> D
     last = replace(state, captured=None, loop=None, choice=None, things=())
     rest = (p.Act(id="", action=wait_thing(command.rest_s).action, said=said),) if command.rest_s else ()
     if command.in_all and not rest:
-        every = p.Repeat(id="", times=command.times, body=p.InOrder(id="", steps=steps), said=said)
+        until, body = _until_battery(command), p.InOrder(id="", steps=steps)
+        every = p.Repeat(id="", times=command.times, body=body, until=until, said=said)
         return with_step(replace(last, plan=p.InOrder(id="", steps=before)), every)
     copies = tuple(_renamed(step, names, said) for step in steps)
     last = replace(last, readings=names.last)

@@ -64,7 +64,7 @@ def _repeated_first(clauses: Sequence[LinkedCommand]) -> Sequence[LinkedCommand]
     """Return clauses with a repetition at their beginning ("three times: ...") behind the sentence that it is of."""
     if clauses and isinstance(clauses[0].command, Total):
         return (*clauses[1:], replace(clauses[0], before=Connective(True, False, 0)))
-    if not clauses or not isinstance(clauses[0].command, Again):
+    if not clauses or not isinstance(clauses[0].command, Again) or clauses[0].command.drives:
         return clauses
     again, rest = replace(clauses[0], before=Connective(True, True, 0)), clauses[1:]
     ends = (k for k, clause in enumerate(rest) if k > 0 and clause.before is not None and clause.before.full)

@@ -90,8 +90,9 @@ def in_the_far_north(inner: Nominal, side: Lex) -> Nominal | None:
 
 
 @construction("edge_word: noun=EDGE", cost=0.0, given=("site",))
+@construction("water_edge: noun=WATEREDGE", cost=0.0, given=("site",))
 def edge_word(noun: Lex, site: Site) -> Lex | None:
-    """Compose "edge"; "fence" is none where a zone is called so, "the stock fence"."""
+    """Compose "edge" and "bank"; "fence" is none where a zone is called so, "the stock fence"."""
     zones = (split(zone.name) for zone in site.zones if zone.kind != "boundary")
     return None if any(name[-1:] == (noun.text,) for name in zones) else noun
 

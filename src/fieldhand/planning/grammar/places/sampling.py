@@ -371,6 +371,22 @@ def along_edge_at_distance(
 
 
 @construction(
+    "path_over: along=path_over [COMMA] [KEEPOFF] far=amount CLEAROF [DET] water_edge",
+    "path_over: along=path_over [COMMA] [KEEPOFF] far=amount CLEAROF what=region",
+    cost=0.1,
+    given=("site",),
+)
+def along_water_at_distance(
+    along: tuple[SamplingPath, s.Selector | None], far: Amount, site: Site, what: s.Selector | None = None
+) -> tuple[SamplingPath, s.Selector | None] | None:
+    """Compose "round the pond, two metres off the bank", and "off the water", which is the pond."""
+    off, where = off_edge(far), along[1]
+    if off is None or where is None or (not is_keep_out(where, site) if what is None else what != where):
+        return None
+    return along_edge_at_distance(along, off)
+
+
+@construction(
     "path_over: path=in_path",
     "path_over: path=in_path OVER site",
     "path_over: path=in_path OPPOSITE site",
