@@ -16,6 +16,7 @@ AMIGA, TRACTOR = load_robot("amiga"), load_robot("tractor")
 
 ENDS = "UnionOf(InRow(1, 1, of Rows(3, 3))+InRow(-1, -1, of Rows(3, 3)))"
 WITHOUT_ENDS = f"for Excluding({ENDS}, of Where(crop, eq, radish, of Rows(3, 3))): [picture]"
+POTATOES = "Rows(of Where(crop, eq, potato))"
 EACH_WITHOUT = "for Excluding(UnionOf(InRow(1, 1, of Rows)+InRow(-1, -1, of Rows)), of Rows): [picture]"
 
 
@@ -31,6 +32,10 @@ EACH_WITHOUT = "for Excluding(UnionOf(InRow(1, 1, of Rows)+InRow(-1, -1, of Rows
         (
             "Photograph bed 3, leaving out the two at each end.",
             "for Excluding(UnionOf(InRow(1, 2, of Rows(3, 3))+InRow(-2, -1, of Rows(3, 3))), of Rows(3, 3)): [picture]",
+        ),
+        (
+            "Photograph all plants in both potato beds except the end plants.",
+            f"for Excluding(UnionOf(InRow(1, 1, of {POTATOES})+InRow(-1, -1, of {POTATOES})), of {POTATOES}): [picture]",
         ),
         ("Photograph all the plants in each bed apart from the one at either end.", EACH_WITHOUT),
         ("Photograph all the plants in each bed apart from the plants at the ends.", EACH_WITHOUT),

@@ -129,12 +129,6 @@ REFUSED = [
         "Measure CO2 at tree 4, tree 9 and tree 12. If they differ by more than 50 ppm, photograph tree 9.",
         "it is not clear which readings are tested",
     ),
-    (
-        GARDEN,
-        HUSKY,
-        "Take a thermal picture of all plants in both potato beds except the end plants.",
-        "does not fit at this point",
-    ),
 ]
 
 
