@@ -1,4 +1,4 @@
-"""What somebody else is going to do, told beside the robot's work: "I'll do the rest on Friday"."""
+"""Work of somebody else that is told beside the robot's work: "I'll do the rest on Friday"."""
 
 from __future__ import annotations
 

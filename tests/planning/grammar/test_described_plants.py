@@ -94,15 +94,41 @@ def test_what_a_description_leaves_open_is_asked(site: Site, robot: RobotProfile
 
 
 HOW_MANY = [
-    (PASTURE, AMIGA, "Take some moisture samples along the fence."),
-    (PASTURE, AMIGA, "Take moisture samples on the bank."),
-    (PASTURE, AMIGA, "Take some soil moisture readings on the bank."),
+    (PASTURE, AMIGA, "Take some moisture samples along the fence.", 3),
+    (PASTURE, AMIGA, "Take moisture samples on the bank.", 0),
+    (PASTURE, AMIGA, "Take some soil moisture readings on the bank.", 3),
+    (GLASS, AMIGA, "Bring me some leaf samples from the mild bay.", 3),
 ]
 
 
-@pytest.mark.parametrize(("site", "robot", "request_"), HOW_MANY)
-def test_a_number_of_readings_on_bare_ground_is_asked_for(site: Site, robot: RobotProfile, request_: str) -> None:
-    require_question(site, robot, request_, 0)
+@pytest.mark.parametrize(("site", "robot", "request_", "ways"), HOW_MANY)
+def test_a_number_of_readings_in_a_zone_is_asked_for(site: Site, robot: RobotProfile, request_: str, ways: int) -> None:
+    require_question(site, robot, request_, ways)
+
+
+SHARED_OUT = [
+    ("Two thermal pictures of the pond, one from the north side and one from the south.",
+     "picture @ Transect(1, edge, pond, north); picture @ Transect(1, edge, pond, south)"),
+    ("Take two CO2 readings, one on the bank and one in the boggy corner.",
+     "co2 @ PointsIn(bank); co2 @ PointsIn(boggy corner)"),
+    ("Take two CO2 readings on the bank, one in the boggy corner and one in the cowslip patch.",
+     "for PointsIn(bank, 2): [co2]; co2 @ PointsIn(boggy corner); co2 @ PointsIn(cowslip patch)"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("request_", "plan"), SHARED_OUT)
+def test_a_number_is_shared_out_among_the_places_behind_it(request_: str, plan: str) -> None:
+    require_plan(PASTURE, HUSKY, request_, plan)
+
+
+@pytest.mark.parametrize(
+    ("request_", "speed"), [("Film the melons at half speed.", 0.4), ("Mow the bank at half speed.", 0.55)]
+)
+def test_half_speed_is_half_of_the_speed_of_work(request_: str, speed: float) -> None:
+    site = GLASS if "melons" in request_ else PASTURE
+    planned = EnglishPlanner().plan(request_, site, TRACTOR)
+    assert isinstance(planned, Planned)
+    assert planned.task.constraints.speed_m_s == speed
 
 
 def test_healthy_is_unknown_where_no_disease_is_recorded() -> None:

@@ -35,7 +35,8 @@ EACH_WITHOUT = "for Excluding(UnionOf(InRow(1, 1, of Rows)+InRow(-1, -1, of Rows
         ),
         (
             "Photograph all plants in both potato beds except the end plants.",
-            f"for Excluding(UnionOf(InRow(1, 1, of {POTATOES})+InRow(-1, -1, of {POTATOES})), of {POTATOES}): [picture]",
+            f"for Excluding(UnionOf(InRow(1, 1, of {POTATOES})+InRow(-1, -1, of {POTATOES})), of {POTATOES}):"
+            " [picture]",
         ),
         ("Photograph all the plants in each bed apart from the one at either end.", EACH_WITHOUT),
         ("Photograph all the plants in each bed apart from the plants at the ends.", EACH_WITHOUT),
