@@ -98,7 +98,22 @@ HOW_MANY = [
     (PASTURE, AMIGA, "Take moisture samples on the bank.", 0),
     (PASTURE, AMIGA, "Take some soil moisture readings on the bank.", 3),
     (GLASS, AMIGA, "Bring me some leaf samples from the mild bay.", 3),
+    (GLASS, HUSKY, "Read the air temperature in the middle of the bay.", 2),
 ]
+
+
+HELD_TO = [
+    (PASTURE, "Measure CO2 on the bank and keep off the boggy corner.",
+     "co2 @ PointsIn(bank) | avoid InZone(boggy corner)"),
+    (PASTURE, "Use the farm gate, not the middle one, and measure CO2 on the bank.",
+     "co2 @ PointsIn(bank) | only farm gate"),
+    (PASTURE, "Measure CO2 on the bank and keep away from the pond.", "co2 @ PointsIn(bank) | avoid InZone(pond)"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("site", "request_", "plan"), HELD_TO)
+def test_ground_and_gates_to_keep_off_are_no_places_of_work(site: Site, request_: str, plan: str) -> None:
+    require_plan(site, HUSKY, request_, plan)
 
 
 @pytest.mark.parametrize(("site", "robot", "request_", "ways"), HOW_MANY)

@@ -171,6 +171,8 @@ def _phrase(
     for entry in phrases.entries(phrase):
         if entry.kind in _TOLD and not tells:
             continue
+        if entry.kind == _SILENT and _forbids_ground(words, start, end, phrases):
+            continue
         features = phrases.features(phrase)
         kind = "CONTRAST" if entry.kind == "AND" and "contrast" in features else entry.kind
         values = list(_values(entry, phrases.lexicon))
@@ -213,12 +215,17 @@ def fillers_of(words: Sequence[Word], phrases: Phrases) -> frozenset[int]:
             kinds = {entry.kind for entry in phrases.entries(phrase)}
             if _VAGUE in kinds and _is_kind(words[end : end + 1], "TREE", phrases):
                 continue  # "good vines"
-            if _SILENT in kinds:
+            if _SILENT in kinds and not _forbids_ground(words, start, end, phrases):
                 found.update(range(start, end))
                 if "wishes" in phrases.features(phrase) and _is_kind(words[end : end + 1], _INFINITIVE, phrases):
                     found.add(end)  # "I want you to ..."
     commas = {k for k, word in enumerate(words) if word.kind == "comma" and {k - 1, k + 1} & found}
     return frozenset(found | commas)
+
+
+def _forbids_ground(words: Sequence[Word], start: int, end: int, phrases: Phrases) -> bool:
+    """Return True for words that begin a phrase which forbids ground: the "keep" of "keep off" says something."""
+    return any(_is_kind(words[start : end + more], "KEEPOUT", phrases) for more in (1, 2, 3))
 
 
 def _is_kind(words: Sequence[Word], kind: str, phrases: Phrases) -> bool:

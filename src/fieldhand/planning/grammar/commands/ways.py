@@ -177,6 +177,25 @@ def several_gates(first: tuple[str, ...], second: tuple[str, ...]) -> tuple[str,
     return (*first, *second)
 
 
+@construction("other_gate: [DET] gate=GATENAME", "other_gate: DET word=MIDDLE ONE", cost=0.0, given=("site",))
+@construction(
+    "other_gate: DET word=DIR ONE", "other_gate: DET word=MIDDLE", "other_gate: DET word=DIR", cost=0.1, given=("site",)
+)
+def other_gate(site: Site, gate: Lex | None = None, word: Lex | None = None) -> str | None:
+    """Compose "the middle one", of a gate that is called so."""
+    if gate is not None:
+        return str(gate.value)
+    first = "" if word is None else word.text.split()[0]
+    named = [one.place.id for one in site.gates if first and one.place.id.casefold().split()[0] == first]
+    return named[0] if len(named) == 1 else None
+
+
+@construction("gates: gates=gates [COMMA] [AND] NOT other=other_gate", cost=0.0)
+def rather_than(gates: tuple[str, ...], other: str) -> tuple[str, ...] | None:
+    """Compose "the north door, not the middle one"."""
+    return None if other in gates else gates
+
+
 @construction(
     "way_rule: ONLYVIA gates=gates", "way_rule: VIAGATE gates=gates ONLY", "way_rule: word=ENTERBY gates=gates [ONLY]",
     cost=0.0,

@@ -95,12 +95,19 @@ def every_zone(noun: Lex) -> Zones:
 
 
 @construction(
-    "zone_list: EACH noun=ZONEKIND", "zone_list: EACH [OF] DET noun=ZONEKIND", "zone_list: [DET] noun=ZONEKIND",
+    "zone_list: EACH noun=ZONEKIND", "zone_list: EACH [OF] DET noun=ZONEKIND", "zone_list: noun=ZONEKIND",
     "zone_list: EACH [OF] [DET] n=count noun=ZONEKIND", "zone_list: [DET] n=count noun=ZONEKIND", cost=0.1,
 )  # fmt: skip
 def zones_of_a_kind(noun: Lex, n: int | None = None) -> Zones | None:
     """Compose "each section" and "the two sections", of the warm and the cool section."""
     return tuple(s.InZone(zone=name) for name in noun.value) if n in (None, len(noun.value)) else None
+
+
+@construction("zone_list: DET noun=ZONEKIND", cost=0.1)
+def the_zones(noun: Lex) -> list[Zones]:
+    """Compose "the sections", which are all of them, and "the section": which one?"""
+    each = [s.InZone(zone=name) for name in noun.value]
+    return [tuple(each)] if noun.text.endswith("s") else [(one,) for one in each]
 
 
 @construction("zone_list: EACH QUARTER", "zone_list: EACH [OF] DET n=count QUARTER", cost=0.3)
