@@ -83,14 +83,12 @@ def _number_of_part(clause: LinkedCommand) -> int:
 
 
 def _at_parts(whole: LinkedCommand, parts: Sequence[LinkedCommand]) -> list[LinkedCommand]:
-    """Return the parts of captures, named as these are."""
-    command = whole.command
-    assert isinstance(command, CaptureCommand)  # noqa: S101  so the caller has found
+    """Return the parts of captures, as :func:`_parts_of` has found them, named as these are."""
+    command = cast(CaptureCommand, whole.command)
     (thing,) = command.things
     made: list[LinkedCommand] = []
     for number, part in enumerate(parts):
-        one = part.command
-        assert isinstance(one, CaptureCommand)  # noqa: S101  so the caller has found
+        one = cast(CaptureCommand, part.command)
         named = replace(thing, count=one.things[0].count, plural=(one.things[0].count or 0) > 1)
         one = one if command.place is None else _of_zone(one, _zones(command.place))
         said = command.used if number == 0 else 0

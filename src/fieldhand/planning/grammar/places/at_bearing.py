@@ -30,10 +30,10 @@ def further_on(more: tuple[float, ...], near: Lex | None = None, far: Amount | N
     return (*first, *more) if first is not None and first[0] not in more else None
 
 
-@construction("toward: dir=DIR", "toward: AT DET dir=DIR", cost=0.0)
-def toward(dir: Lex) -> Side | None:  # noqa: A002
+@construction("toward: side=DIR", "toward: AT DET side=DIR", cost=0.0)
+def toward(side: Lex) -> Side | None:
     """Compose "west" and "to the west"."""
-    return dir.value if dir.value in SIDES else None
+    return side.value if side.value in SIDES else None
 
 
 @construction("bearing_origin: at=place", "bearing_origin: where=region", "bearing_origin: it=IT", cost=0.0)
