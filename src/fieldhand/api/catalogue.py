@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import asdict
 from typing import Any
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Depends
 
+from fieldhand.api.callers import Scope, require
 from fieldhand.api.inputs import open_choice, open_robot
 from fieldhand.api.work import Workers
 from fieldhand.language import languages
@@ -15,7 +16,7 @@ from fieldhand.site.loader import BUILT_IN_SITES
 
 def router(workers: Workers) -> APIRouter:
     """``GET /sites``, ``GET /robots``, ``GET /robots/{name}``, ``GET /languages``."""
-    routes = APIRouter(tags=["catalogue"])
+    routes = APIRouter(tags=["catalogue"], dependencies=[Depends(require(Scope.READ))])
 
     @routes.get("/sites")
     async def sites() -> list[dict[str, Any]]:

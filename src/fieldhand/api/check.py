@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Depends
 
 from fieldhand import mission
 from fieldhand.api.answers import review_answer
+from fieldhand.api.callers import Scope, require
 from fieldhand.api.earlier import with_logs
 from fieldhand.api.inputs import CheckBody, open_site_and_robot, open_task
 from fieldhand.api.work import Workers
@@ -17,7 +18,7 @@ from fieldhand.task.codec import encode
 
 def router(workers: Workers) -> APIRouter:
     """``POST /check``."""
-    routes = APIRouter(tags=["mission"])
+    routes = APIRouter(tags=["mission"], dependencies=[Depends(require(Scope.PLAN))])
 
     @routes.post("/check")
     async def check(body: CheckBody) -> dict[str, Any]:

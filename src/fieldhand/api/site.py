@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Depends
 
+from fieldhand.api.callers import Scope, require
 from fieldhand.api.inputs import SiteBody, open_choice
 from fieldhand.api.maps import site_map
 from fieldhand.api.work import Workers
@@ -13,7 +14,7 @@ from fieldhand.api.work import Workers
 
 def router(workers: Workers) -> APIRouter:
     """``POST /site``."""
-    routes = APIRouter(tags=["site"])
+    routes = APIRouter(tags=["site"], dependencies=[Depends(require(Scope.READ))])
 
     @routes.post("/site")
     async def site(body: SiteBody) -> dict[str, Any]:
