@@ -28,7 +28,7 @@ def router(workers: Workers, planners: Planners, record: Record) -> APIRouter:
     @routes.post("/plan")
     async def plan(body: PlanBody, caller: Annotated[Caller, Depends(require(Scope.PLAN))]) -> dict[str, Any]:
         """Plan a request: what was understood, where, and what it will take."""
-        answer = await workers.do(lambda: _plan(body, planners))
+        answer = await workers.do(lambda: _plan(body, planners), caller.name)
         await record(caller, "plan", body.request, outcome=answer["outcome"], task=answer.get("task", ""))
         return answer
 

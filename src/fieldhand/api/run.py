@@ -39,7 +39,7 @@ def router(workers: Workers, planners: Planners, limits: Limits, record: Record)
     async def run(body: RunBody, caller: Annotated[Caller, Depends(require(Scope.APPROVE))]) -> dict[str, Any]:
         """Approve a mission in the name of an operator, simulate it and judge it."""
         by = approver(caller, body.approved_by)
-        answer = await workers.do(lambda: _run(body, by, planners, limits))
+        answer = await workers.do(lambda: _run(body, by, planners, limits), caller.name)
         if answer["outcome"] == "ran":
             authorization = answer["authorization"]
             await record(caller, "approve and simulate", authorization["task_sha256"], approved_by=by, seed=body.seed)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
 from fastapi import APIRouter, Depends
 
-from fieldhand.api.callers import Scope, require
+from fieldhand.api.callers import Caller, Scope, require
 from fieldhand.api.inputs import SiteBody, open_choice
 from fieldhand.api.maps import site_map
 from fieldhand.api.work import Workers
@@ -14,12 +14,12 @@ from fieldhand.api.work import Workers
 
 def router(workers: Workers) -> APIRouter:
     """``POST /site``."""
-    routes = APIRouter(tags=["site"], dependencies=[Depends(require(Scope.READ))])
+    routes = APIRouter(tags=["site"])
 
     @routes.post("/site")
-    async def site(body: SiteBody) -> dict[str, Any]:
+    async def site(body: SiteBody, caller: Annotated[Caller, Depends(require(Scope.READ))]) -> dict[str, Any]:
         """Return trees, markers, zones and attributes of a site, and the notes of its reader."""
-        return await workers.do(lambda: _site(body))
+        return await workers.do(lambda: _site(body), caller.name)
 
     return routes
 
