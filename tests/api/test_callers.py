@@ -16,10 +16,12 @@ from sqlalchemy import text
 
 from fieldhand.accounts.accounts import Accounts
 from fieldhand.accounts.roles import Role, Scope
+from fieldhand.api.account_service import AccountService
+from fieldhand.api.app import create_app
 from fieldhand.api.callers import Caller, is_still_allowed
 from fieldhand.api.problems import RefusedRequest
 from support.databases import Calendar
-from support.processes.browser import browser, corner_warnings, corner_xml
+from support.processes.browser import Browser, Says, browser, corner_warnings, corner_xml
 from support.processes.logins import Visitor, logged_in
 
 #: Whoever calls these has no credential yet.
@@ -155,8 +157,18 @@ def test_the_unversioned_addresses_are_for_this_machine_alone(app: FastAPI, addr
             return (await browser.get(path)).status_code
 
     assert asyncio.run(call(address, "/api/robots")) == 403
+    assert asyncio.run(call(address, "/api/v1/robots")) == 401
     assert asyncio.run(call("127.0.0.1", "/api/robots")) == 200
     assert asyncio.run(call("127.0.0.1", "/api/v1/robots")) == 401
+
+
+@pytest.mark.parametrize("host", ["evil.example", "evil.example:8000", "10.0.0.7:8000", "", "[::1"])
+def test_a_page_whose_name_leads_to_this_machine_is_not_this_machine(accounts: Accounts, host: str) -> None:
+    """Where others can reach the server, it answers under any name."""
+    app = create_app(lambda name: Says(outcome=lambda r, s, p: None), hosts=None, accounts=AccountService(accounts))
+    headers = {"host": host, "origin": f"http://{host}"}
+    assert Browser(app).get("/api/robots", headers=headers).status_code == 403
+    assert Browser(app).get("/api/robots").status_code == 200
 
 
 def test_without_accounts_this_machine_is_admitted_and_no_other() -> None:

@@ -66,9 +66,13 @@ def test_serves_page_and_api_on_this_machine_alone() -> None:
             fetch(port, "/api/v1/robots")
 
 
-def post(url: str, body: dict[str, str], trusted: ssl.SSLContext | None = None) -> dict[str, object]:
+def post(
+    url: str, body: dict[str, str], trusted: ssl.SSLContext | None = None, cookies: list[str] | None = None
+) -> dict[str, object]:
     request = urllib.request.Request(url, json.dumps(body).encode(), {"Content-Type": "application/json"})
     with urllib.request.urlopen(request, timeout=LONG_S, context=trusted) as found:
+        if cookies is not None:
+            cookies.append(found.headers["Set-Cookie"])
         return dict(json.loads(found.read()))
 
 
@@ -99,17 +103,18 @@ def test_the_link_opens_a_session_once_over_tls(tmp_path: Path) -> None:
     with serving("--tls-cert", str(cert), "--tls-key", str(key)) as (port, server):
         url, code = link_of(server)
         assert url == f"https://127.0.0.1:{port}/"
-        trusted = ssl.create_default_context(cafile=str(cert))
+        trusted, cookies = ssl.create_default_context(cafile=str(cert)), list[str]()
 
         def session() -> dict[str, object] | None:
             try:
-                return post(f"{url}api/v1/session/code", {"code": code}, trusted)
+                return post(f"{url}api/v1/session/code", {"code": code}, trusted, cookies)
             except urllib.error.HTTPError:
                 raise
             except OSError:
                 return None
 
         assert until(session) is not None
+        assert "Secure" in cookies[0]
         with pytest.raises(urllib.error.HTTPError, match="401"):
             post(f"{url}api/v1/session/code", {"code": code}, trusted)
 

@@ -68,13 +68,15 @@ def require_strong(password: str, name: str) -> None:
                 most=LONGEST,
                 count=len(password),
             ),
-            where="password",
+            where=message("password"),
             advice=message("take several words"),
         )
     folded = password.casefold()
     if len(set(folded)) < _VARIED or not folded.replace(name.casefold(), ""):
         raise InputError(
-            message("this password is too easy to guess"), where="password", advice=message("take several words")
+            message("this password is too easy to guess"),
+            where=message("password"),
+            advice=message("take several words"),
         )
 
 

@@ -181,19 +181,21 @@ def _clean_name(name: str) -> str:
     name = unicodedata.normalize("NFC", name.strip())
     if not 0 < len(name) <= _LONGEST_NAME:
         raise InputError(
-            message("a name has 1 to {most} characters", most=_LONGEST_NAME), where="name", advice=message("shorten it")
+            message("a name has 1 to {most} characters", most=_LONGEST_NAME),
+            where=message("name"),
+            advice=message("shorten it"),
         )
     hidden = find_hidden(name)
     if hidden is not None:
         raise InputError(
             message("the name contains the invisible character {name}", name=hidden.name),
-            where="name",
+            where=message("name"),
             advice=message("leave it out"),
         )
     if key_of(name) == LOCAL:
         raise InputError(
             message("'{name}' is the name of this machine's administrator", name=name),
-            where="name",
+            where=message("name"),
             advice=message("choose another name"),
         )
     return name
@@ -211,6 +213,6 @@ def _require_language(code: str) -> None:
     if code not in there:
         raise InputError(
             message("there is no language '{code}'", code=code),
-            where="language",
+            where=message("language"),
             advice=message("choose one of {names}", names=", ".join(there)),
         )

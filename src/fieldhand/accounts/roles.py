@@ -58,7 +58,7 @@ def parse_role(text: str) -> Role:
     except ValueError:
         raise InputError(
             message("there is no role '{role}'", role=text),
-            where="role",
+            where=message("role"),
             advice=message("choose one of {names}", names=", ".join(role.value for role in Role)),
         ) from None
 
@@ -75,10 +75,10 @@ def parse_scopes(names: Iterable[str]) -> frozenset[Scope]:
             found.add(Scope(name))
         except ValueError:
             raise InputError(
-                message("there is no scope '{scope}'", scope=name), where="scopes", advice=_choose_scopes()
+                message("there is no scope '{scope}'", scope=name), where=message("scopes"), advice=_choose_scopes()
             ) from None
     if not found:
-        raise InputError(message("no scope is given"), where="scopes", advice=_choose_scopes())
+        raise InputError(message("no scope is given"), where=message("scopes"), advice=_choose_scopes())
     return frozenset(found)
 
 

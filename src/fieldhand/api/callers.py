@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 from http.cookies import CookieError, SimpleCookie
-from ipaddress import ip_address
 from typing import Any, Literal
 
 from fastapi import Request
@@ -21,8 +20,9 @@ from fieldhand.accounts.random_secrets import TOKEN_PREFIX, csrf_of, same
 from fieldhand.accounts.roles import Role, Scope
 from fieldhand.api.account_service import AccountService
 from fieldhand.api.admission import Rank, set_rank
-from fieldhand.api.gates import BodyGate
+from fieldhand.api.gates import BodyGate, host_name
 from fieldhand.api.problems import RefusedRequest
+from fieldhand.api.serving import is_loopback
 from fieldhand.errors import FieldhandError
 from fieldhand.language import message
 
@@ -185,7 +185,8 @@ async def _identified(scope: ConnectionScope, service: AccountService | None) ->
     """Return the caller of a request, or the reason why nobody is identified."""
     address = (scope.get("client") or ("", 0))[0]
     if service is None or not scope["path"].startswith(GUARDED):
-        if _is_loopback(address):
+        # A page whose name leads to this machine (DNS rebinding) calls from here, but under that name.
+        if is_loopback(address) and is_loopback(host_name(Headers(scope=scope).get("host", "")) or ""):
             return Caller(name=LOCAL, role=Role.ADMIN, scopes=Role.ADMIN.scopes, address=address)
         return RefusedRequest(
             403,
@@ -256,10 +257,3 @@ def _cookie(headers: Headers) -> str:
     except CookieError:
         return ""
     return "" if found is None else found.value
-
-
-def _is_loopback(address: str) -> bool:
-    try:
-        return ip_address(address).is_loopback
-    except ValueError:
-        return False

@@ -89,7 +89,7 @@ def answer_problems(app: FastAPI) -> None:
         more = {"warnings": error.warnings} if isinstance(error, NotConfirmedError) else {}
         status = 503 if isinstance(error, DatabaseError) else 400 if isinstance(error, InputError) else 422
         say = _asked_language(request).say
-        return problem(status, say(error.what), say(error.where), say(error.advice), **more)
+        return problem(status, say(error.what), error.where, say(error.advice), **more)
 
     @app.exception_handler(RefusedRequest)
     async def _refused(request: Request, error: RefusedRequest) -> Response:
