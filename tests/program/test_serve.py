@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import json
 import socket
+import ssl
 import subprocess
 import sys
+import urllib.error
 import urllib.request
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 import pytest
 
 from fieldhand.api.serving import hosts_for, is_loopback
+from support.processes.certificates import certificate
 from support.processes.command import fieldhand
 from support.processes.patience import LONG_S, until
 
@@ -58,13 +62,68 @@ def test_serves_page_and_api_on_this_machine_alone() -> None:
         assert f"http://127.0.0.1:{port}/" in said
         assert b"<title>Fieldhand</title>" in fetch(port, "/")
         assert {robot["name"] for robot in json.loads(fetch(port, "/api/robots"))} >= {"husky", "amiga"}
+        with pytest.raises(urllib.error.HTTPError, match="401"):
+            fetch(port, "/api/v1/robots")
 
 
-def test_warns_where_others_can_reach_it() -> None:
-    with serving("--host", "0.0.0.0") as (port, server):
+def post(
+    url: str, body: dict[str, str], trusted: ssl.SSLContext | None = None, cookies: list[str] | None = None
+) -> dict[str, object]:
+    request = urllib.request.Request(url, json.dumps(body).encode(), {"Content-Type": "application/json"})
+    with urllib.request.urlopen(request, timeout=LONG_S, context=trusted) as found:
+        if cookies is not None:
+            cookies.append(found.headers["Set-Cookie"])
+        return dict(json.loads(found.read()))
+
+
+def link_of(server: subprocess.Popen[str]) -> tuple[str, str]:
+    """The address and the code of the link that a server prints below its address."""
+    assert server.stderr is not None
+    server.stderr.readline()
+    url, _, code = server.stderr.readline().split()[-1].partition("#code=")
+    return url, code
+
+
+def test_others_can_reach_it_only_with_tls_or_where_somebody_accepts_the_danger() -> None:
+    refused = fieldhand("serve", "--host", "0.0.0.0")
+    assert refused.status == 2
+    assert "--tls-cert" in refused.err
+    assert "--insecure" in refused.err
+    with serving("--host", "0.0.0.0", "--insecure") as (port, server):
+        url, code = link_of(server)
         assert server.stderr is not None
-        assert str(port) in server.stderr.readline()
-        assert "no login" in server.stderr.readline()
+        assert "without TLS" in server.stderr.readline()
+        assert url == f"http://127.0.0.1:{port}/"
+        fetch(port, "/api/v1/health")
+        assert post(f"{url}api/v1/session/code", {"code": code})["name"] == "local"
+
+
+def test_the_link_opens_a_session_once_over_tls(tmp_path: Path) -> None:
+    cert, key, _ = certificate(tmp_path, "localhost")
+    with serving("--tls-cert", str(cert), "--tls-key", str(key)) as (port, server):
+        url, code = link_of(server)
+        assert url == f"https://127.0.0.1:{port}/"
+        trusted, cookies = ssl.create_default_context(cafile=str(cert)), list[str]()
+
+        def session() -> dict[str, object] | None:
+            try:
+                return post(f"{url}api/v1/session/code", {"code": code}, trusted, cookies)
+            except urllib.error.HTTPError:
+                raise
+            except OSError:
+                return None
+
+        assert until(session) is not None
+        assert "Secure" in cookies[0]
+        with pytest.raises(urllib.error.HTTPError, match="401"):
+            post(f"{url}api/v1/session/code", {"code": code}, trusted)
+
+
+def test_a_certificate_needs_its_key(tmp_path: Path) -> None:
+    cert, _, _ = certificate(tmp_path, "localhost")
+    refused = fieldhand("serve", "--tls-cert", str(cert))
+    assert refused.status == 2
+    assert "give both --tls-cert and --tls-key" in refused.err
 
 
 def test_an_address_that_is_taken_is_one_clear_line() -> None:
@@ -93,7 +152,8 @@ def test_help_knows_serve_and_loads_no_server() -> None:
         "import sys; sys.argv = ['fieldhand', '--help']\n"
         "from fieldhand.program import main\n"
         "try:\n    main()\nexcept SystemExit:\n    pass\n"
-        "heavy = {'fastapi', 'uvicorn', 'starlette', 'pydantic', 'shapely', 'numpy', 'lxml'} & set(sys.modules)\n"
+        "heavy = {'fastapi', 'sqlalchemy', 'argon2', 'uvicorn', 'starlette', 'pydantic', 'shapely', 'numpy', 'lxml'}\n"
+        "heavy &= set(sys.modules)\n"
         "print('loaded:', sorted(heavy))\n"
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=LONG_S, check=True)

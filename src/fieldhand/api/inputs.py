@@ -136,7 +136,7 @@ class RunBody(SiteAndRobotBody):
     request: RequestText | None = None
     answers: AnswerList = []
     planner: Literal["auto", "english", "llm"] = "auto"
-    approved_by: Name
+    approved_by: Name | None = None
     confirmed: Warnings = []
     seed: Annotated[int, Field(ge=0, lt=2**32)] | None = None
     world: dict[str, Any] | None = None
