@@ -5,20 +5,24 @@ from __future__ import annotations
 from fastapi import FastAPI
 
 from fieldhand import __version__
-from fieldhand.api import catalogue, check, plan, run, site
+from fieldhand.api import catalogue, check, event_stream, missions, plan, run, site
 from fieldhand.api.gates import BodyGate, CallerGate, LastResort, SecurityHeaders
 from fieldhand.api.plan import Planners
 from fieldhand.api.problems import VisibleAnswer, answer_problems
 from fieldhand.api.work import Limits, Workers
+from fieldhand.fleet import Fleet
 
 
-def create_app(planners: Planners, *, hosts: frozenset[str] | None, limits: Limits | None = None) -> FastAPI:
+def create_app(
+    planners: Planners, *, hosts: frozenset[str] | None, limits: Limits | None = None, fleet: Fleet | None = None
+) -> FastAPI:
     """Create the ASGI application of the REST API.
 
     Args:
         planners: Returns the planner of a name.
         hosts: Host names that requests may address; None for any.
         limits: Limits of the server's work.
+        fleet: Simulated robots; None to serve no live missions.
     """
     limits = limits or Limits()
     workers = Workers(limits)
@@ -40,6 +44,9 @@ def create_app(planners: Planners, *, hosts: frozenset[str] | None, limits: Limi
         run.router(workers, planners, limits),
     ):
         app.include_router(router, prefix="/api")
+    if fleet is not None:
+        for live in (missions.router(workers, planners, fleet), event_stream.router(fleet)):
+            app.include_router(live, prefix="/api/v1")
     # A request passes the middleware in the reverse order.
     app.add_middleware(BodyGate, most=limits.body_bytes)
     app.add_middleware(CallerGate, hosts=hosts)

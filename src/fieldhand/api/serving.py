@@ -6,6 +6,7 @@ import ipaddress
 import logging
 import sys
 import traceback
+from collections.abc import Callable
 from contextlib import suppress
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
@@ -51,8 +52,14 @@ def hosts_for(host: str) -> frozenset[str] | None:
     return frozenset({"localhost", "127.0.0.1", "::1", host}) if is_loopback(host) else None
 
 
-def serve_forever(app: FastAPI, host: str, port: int) -> None:
+def serve_forever(app: FastAPI, host: str, port: int, *, on_start: Callable[[], object] = lambda: None) -> None:
     """Print the address and serve until Ctrl-C; warn if other machines can reach the address.
+
+    Args:
+        app: The application.
+        host: Address to listen on.
+        port: Port to listen on.
+        on_start: Called once the address is known to be free.
 
     Raises:
         InputError: The address cannot be used.
@@ -63,6 +70,7 @@ def serve_forever(app: FastAPI, host: str, port: int) -> None:
     print_error(f"Fieldhand is at http://{shown}:{port}/ (Ctrl-C to stop)")
     if not is_loopback(host):
         print_error("warning: everyone who reaches this address can plan and simulate missions; there is no login")
+    on_start()
     with suppress(KeyboardInterrupt):
         make_server(app, host, port).run()
 

@@ -11,6 +11,8 @@ import typer
 if TYPE_CHECKING:
     from fastapi import FastAPI
 
+    from fieldhand.fleet import Fleet
+
 
 def serve(
     host: Annotated[
@@ -18,18 +20,28 @@ def serve(
     ] = "127.0.0.1",
     port: Annotated[int, typer.Option("--port", min=1, max=65535, help="Port to listen on.")] = 8000,
 ) -> None:
-    """Serve the web page and the REST API."""
-    from fieldhand.api.serving import hosts_for, serve_forever
+    """Serve the web page and the REST API, with live missions of simulated robots."""
+    import threading
 
-    serve_forever(compose(os.environ, hosts=hosts_for(host)), host, port)
+    from fieldhand.api.serving import hosts_for, require_extra, serve_forever
+
+    require_extra()
+    from fieldhand import missions
+    from fieldhand.fleet import Fleet
+
+    fleet = Fleet(missions.missions_folder(os.environ))
+    app = compose(os.environ, hosts=hosts_for(host), fleet=fleet)
+    continuing = threading.Thread(target=fleet.continue_interrupted, name="interrupted missions", daemon=True)
+    serve_forever(app, host, port, on_start=continuing.start)
 
 
-def compose(environ: Mapping[str, str], *, hosts: frozenset[str] | None) -> FastAPI:
+def compose(environ: Mapping[str, str], *, hosts: frozenset[str] | None, fleet: Fleet | None = None) -> FastAPI:
     """Create the ASGI application of the REST API and the web page.
 
     Args:
         environ: Environment variables that configure a language model.
         hosts: Host names that requests may address; None for any.
+        fleet: Simulated robots; None to serve no live missions.
 
     Raises:
         InputError: The packages that serving needs are not installed.
@@ -41,6 +53,6 @@ def compose(environ: Mapping[str, str], *, hosts: frozenset[str] | None) -> Fast
     from fieldhand.api.app import create_app
     from fieldhand.web.page import page_router
 
-    app = create_app(lambda name: mission.make_planner(name, environ), hosts=hosts)
+    app = create_app(lambda name: mission.make_planner(name, environ), hosts=hosts, fleet=fleet)
     app.include_router(page_router())
     return app
