@@ -162,8 +162,9 @@ class RunBody(MissionInputBody):
 
 
 class MissionBody(MissionInputBody):
-    """A mission to begin on a simulated robot; the caller approves it."""
+    """A mission to begin on a simulated robot; the caller approves it, by default in the own name."""
 
+    approved_by: Name | None = None
     speed: Annotated[float, Field(gt=0, le=1000, allow_inf_nan=False)] | Literal["max"] = 1.0
 
 

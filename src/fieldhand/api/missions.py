@@ -164,7 +164,7 @@ def _begin(body: MissionBody, caller: Caller, planners: Planners, fleet: Fleet) 
     require_unsigned_allowed(os.environ)
     site_and_robot, files = open_files(body)
     site, robot = site_and_robot.site, site_and_robot.robot
-    world = open_world(body.world)
+    world, by = open_world(body.world), body.approved_by or caller.name
     mission.check_world(world, site, robot)
     planner = "document"
     if body.request is not None:
@@ -183,7 +183,7 @@ def _begin(body: MissionBody, caller: Caller, planners: Planners, fleet: Fleet) 
         task = with_logs(open_task(body.xml or "", robot)[0], body.earlier, site)
     approved = mission.authorize(
         mission.review(task, site, robot),
-        by=caller.name,
+        by=by,
         at=datetime.now(UTC),
         confirmed=body.confirmed,
         language=body.lang,
@@ -199,7 +199,7 @@ def _begin(body: MissionBody, caller: Caller, planners: Planners, fleet: Fleet) 
             seed=world.seed if body.seed is None else body.seed,
             planner=planner,
         ),
-        WorkerSettings(speed=None if body.speed == "max" else body.speed, by=caller.name),
+        WorkerSettings(speed=None if body.speed == "max" else body.speed, by=by),
     )
     return {"outcome": "began", **summary_record(_feed(fleet, name), open_language(body.lang))}
 
