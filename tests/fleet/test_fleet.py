@@ -111,7 +111,7 @@ def test_no_mission_has_two_workers_and_no_more_run_than_may(tmp_path: Path, fle
     for _ in range(3):
         fleet._start(tmp_path / name)
     assert worker_pid(tmp_path / name) == pid
-    with pytest.raises(ExecutionError, match="1 missions are running"):
+    with pytest.raises(ExecutionError, match="1 mission is running"):
         begun(small)
     assert small.ids() == (name,)
 

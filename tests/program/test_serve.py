@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
 import socket
 import subprocess
 import sys
 import urllib.request
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
 
 import pytest
 
 from fieldhand.api.serving import hosts_for, is_loopback
+from support.missions.fleet import worker_pid
+from support.missions.kept import inputs
 from support.processes.command import fieldhand
 from support.processes.patience import LONG_S, until
 
@@ -27,7 +33,7 @@ def free_port() -> int:
 def serving(*words: str) -> Iterator[tuple[int, subprocess.Popen[str]]]:
     port = free_port()
     command = [sys.executable, "-m", "fieldhand", "serve", "--port", str(port), *words]
-    server = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    server = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True)
     try:
         yield port, server
     finally:
@@ -58,6 +64,39 @@ def test_serves_page_and_api_on_this_machine_alone() -> None:
         assert f"http://127.0.0.1:{port}/" in said
         assert b"<title>Fieldhand</title>" in fetch(port, "/")
         assert {robot["name"] for robot in json.loads(fetch(port, "/api/robots"))} >= {"husky", "amiga"}
+
+
+def test_ctrl_c_ends_the_server_and_not_its_missions(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Another server finds the mission, still carried out by the same process, and commands it."""
+    monkeypatch.setenv("FIELDHAND_MISSIONS", str(tmp_path))
+    body = {"xml": inputs().document.decode(), "confirmed": list(inputs().authorized.authorization.confirmed)}
+    with serving() as (port, server):
+        assert server.stderr is not None
+        server.stderr.readline()
+        fetch(port, "/")
+        name = send(port, "missions", {**body, "approved_by": "Ana", "speed": 2})["id"]
+        stream = urllib.request.urlopen(f"http://127.0.0.1:{port}/api/v1/stream", timeout=LONG_S)
+        stream.readline()
+        until(lambda: json.loads(fetch(port, f"/api/v1/missions/{name}/events"))["state"] == "running")
+        pid = worker_pid(tmp_path / name)
+        os.killpg(server.pid, signal.SIGINT)
+        server.wait(LONG_S)
+        stream.close()
+    assert worker_pid(tmp_path / name) == pid
+    with serving() as (port, _):
+        (found,) = json.loads(fetch(port, "/api/v1/missions"))
+        assert (found["id"], found["state"]) == (name, "running")
+        assert worker_pid(tmp_path / name) == pid
+        answer = send(port, f"missions/{name}/commands", {"command": "abort"})
+        assert (answer["confirmed"], answer["by"]) == (True, name)
+        until(lambda: json.loads(fetch(port, f"/api/v1/missions/{name}/events"))["state"] == "ended")
+
+
+def send(port: int, path: str, body: object) -> Any:
+    request = urllib.request.Request(f"http://127.0.0.1:{port}/api/v1/{path}", json.dumps(body).encode())
+    request.add_header("Content-Type", "application/json")
+    with urllib.request.urlopen(request, timeout=LONG_S) as answer:
+        return json.load(answer)
 
 
 def test_warns_where_others_can_reach_it() -> None:

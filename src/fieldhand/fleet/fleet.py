@@ -18,10 +18,10 @@ from typing import Literal
 from fieldhand import missions
 from fieldhand.compatibility import UTC
 from fieldhand.errors import ExecutionError, FieldhandError, JournalError
-from fieldhand.fleet.mission_feed import MissionFeed, no_worker
+from fieldhand.fleet.mission_feed import MissionFeed
 from fieldhand.fleet.worker_folder import WorkerFolder, WorkerSettings
 from fieldhand.folders import FolderTaken
-from fieldhand.language import message, named
+from fieldhand.language import counted, message, named
 
 log = logging.getLogger("fieldhand.fleet")
 
@@ -74,7 +74,11 @@ class Fleet:
         with self._lock:
             if len(self.under_way()) >= self._at_once:
                 raise ExecutionError(
-                    message("{count} missions are running, which is as many as can", count=self._at_once),
+                    counted(
+                        "{count} mission is running, which is as many as can",
+                        "{count} missions are running, which is as many as can",
+                        self._at_once,
+                    ),
                     advice=message("wait until one has ended, or abort one"),
                 )
             name = missions.new_id(datetime.now(UTC))
@@ -160,7 +164,8 @@ class Fleet:
         if missions.status(folder).now.state == "ended":
             raise ExecutionError(message("the mission has ended"), where=folder.name)
         if command == "pause" and not alive:
-            return CommandAnswer(confirmed=False, sent=False, why=no_worker())
+            why = message("the mission is interrupted: nothing moves the robot; resume it first")
+            return CommandAnswer(confirmed=False, sent=False, why=why)
         if command != "resume":
             missions.send_command(folder, command, by)
         elif missions.last_command(folder) in (("pause", "return", "abort") if alive else ("pause",)):

@@ -19,7 +19,6 @@ from fieldhand import missions
 from fieldhand.compatibility import UTC
 from fieldhand.errors import FieldhandError
 from fieldhand.fleet.worker_folder import SeenPosition, WorkerFolder, WorkerSettings
-from fieldhand.language import message
 from fieldhand.task.event_lines import from_json
 from fieldhand.task.results import Event
 
@@ -225,8 +224,3 @@ def _stat(path: Path) -> tuple[int, int] | None:
     except OSError:
         return None
     return found.st_size, found.st_mtime_ns
-
-
-def no_worker() -> str:
-    """Return the reason why a mission without a worker takes no command."""
-    return message("the mission is interrupted: nothing moves the robot; resume it first")
