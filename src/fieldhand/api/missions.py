@@ -38,7 +38,7 @@ LISTED, MOST_EVENTS = 50, 500
 #: Seconds within which a mission confirms a command, and between two looks. A worker that starts needs a few.
 CONFIRMED_WITHIN_S, LOOK_S = 10.0, 0.05
 #: Threads for commands, and for reading; neither waits for plans or for each other.
-_COMMANDS, _READERS = 8, 8
+_COMMANDS, _READERS = 32, 8
 #: Policy of a report, which is a page with its own style and images.
 REPORT_POLICY = (
     "default-src 'none'; img-src data:; style-src 'unsafe-inline';"

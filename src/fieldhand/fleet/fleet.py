@@ -27,7 +27,7 @@ log = logging.getLogger("fieldhand.fleet")
 
 FleetCommand = Literal["pause", "resume", "return", "abort"]
 
-#: Missions that may run at the same time: each is a process of about 200 MB.
+#: Missions that may run at the same time: each is a process of 120 MB and more.
 AT_ONCE = 8
 #: Feeds that are kept for readers, with the last events of each.
 _FEEDS = 64
@@ -61,7 +61,7 @@ class Fleet:
 
     def __init__(self, under: Path, *, at_once: int = AT_ONCE) -> None:
         self._under, self._at_once = under, at_once
-        self._lock = threading.Lock()
+        self._lock, self._feeds_lock = threading.Lock(), threading.Lock()
         self._feeds: OrderedDict[str, MissionFeed] = OrderedDict()
 
     def begin(self, inputs: missions.Inputs, settings: WorkerSettings) -> str:
@@ -107,12 +107,11 @@ class Fleet:
     def feed(self, name: str) -> MissionFeed | None:
         """Return the reader of a mission; None if there is no mission of that name."""
         folder = self.folder(name)
-        with self._lock:
+        with self._feeds_lock:
+            feed = self._feeds.pop(name, None)
             if folder is None:
-                self._feeds.pop(name, None)
                 return None
-            feed = self._feeds.setdefault(name, MissionFeed(folder))
-            self._feeds.move_to_end(name)
+            self._feeds[name] = feed = feed or MissionFeed(folder)
             while len(self._feeds) > _FEEDS:
                 self._feeds.popitem(last=False)
             return feed

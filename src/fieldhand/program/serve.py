@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from fieldhand.errors import FieldhandError
+from fieldhand.hidden_characters import print_error
+
 if TYPE_CHECKING:
     from fastapi import FastAPI
 
@@ -31,8 +34,17 @@ def serve(
 
     fleet = Fleet(missions.missions_folder(os.environ))
     app = compose(os.environ, hosts=hosts_for(host), fleet=fleet)
-    continuing = threading.Thread(target=fleet.continue_interrupted, name="interrupted missions", daemon=True)
+    continuing = threading.Thread(target=_continue_missions, args=(fleet,), name="interrupted missions", daemon=True)
     serve_forever(app, host, port, on_start=continuing.start)
+
+
+def _continue_missions(fleet: Fleet) -> None:
+    """Resume the missions that were cut off, and print their names."""
+    try:
+        for name in fleet.continue_interrupted():
+            print_error(f"going on with mission {name}")
+    except FieldhandError as error:
+        print_error(f"warning: {error}")
 
 
 def compose(environ: Mapping[str, str], *, hosts: frozenset[str] | None, fleet: Fleet | None = None) -> FastAPI:
