@@ -38,6 +38,8 @@ _FIRST = (
     "cli/test_resume.py",
     "program/test_agent.py",
     "agent/test_busy.py",
+    "api/test_event_stream.py",
+    "fleet/test_fleet.py",
     "cli/test_interrupt.py",
     "cli/test_two_processes.py",
     "ros2/test_faults_over_dds.py",

@@ -167,6 +167,11 @@ class FolderLock:
             raise
         self._descriptor = descriptor
 
+    @property
+    def descriptor(self) -> int | None:
+        """Descriptor to be inherited by another process, which then keeps the lock as well; None on Windows."""
+        return self._descriptor
+
     def close(self) -> None:
         """Release the folder."""
         if self._descriptor is not None:

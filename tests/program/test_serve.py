@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import os
+import signal
 import socket
 import ssl
 import subprocess
@@ -11,11 +13,16 @@ import urllib.error
 import urllib.request
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
+from http.client import HTTPResponse
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from fieldhand.api.serving import hosts_for, is_loopback
+from support.missions.fleet import worker_pid
+from support.missions.kept import inputs
 from support.processes.certificates import certificate
 from support.processes.command import fieldhand
 from support.processes.patience import LONG_S, until
@@ -31,7 +38,7 @@ def free_port() -> int:
 def serving(*words: str) -> Iterator[tuple[int, subprocess.Popen[str]]]:
     port = free_port()
     command = [sys.executable, "-m", "fieldhand", "serve", "--port", str(port), *words]
-    server = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    server = subprocess.Popen(command, stderr=subprocess.PIPE, text=True, start_new_session=True)
     try:
         yield port, server
     finally:
@@ -91,11 +98,67 @@ def test_others_can_reach_it_only_with_tls_or_where_somebody_accepts_the_danger(
     assert "--insecure" in refused.err
     with serving("--host", "0.0.0.0", "--insecure") as (port, server):
         url, code = link_of(server)
-        assert server.stderr is not None
-        assert "without TLS" in server.stderr.readline()
         assert url == f"http://127.0.0.1:{port}/"
         fetch(port, "/api/v1/health")
         assert post(f"{url}api/v1/session/code", {"code": code})["name"] == "local"
+
+
+@dataclass
+class LoggedIn:
+    """The local administrator of a server, logged in by the code of its link."""
+
+    port: int
+    cookie: str
+    csrf: str
+
+    def get(self, path: str) -> Any:
+        return json.loads(self._open(path, None).read())
+
+    def post(self, path: str, body: object) -> Any:
+        return json.loads(self._open(path, json.dumps(body).encode()).read())
+
+    def stream(self) -> HTTPResponse:
+        return self._open("stream", None)
+
+    def _open(self, path: str, body: bytes | None) -> HTTPResponse:
+        headers = {"Cookie": self.cookie, "X-Fieldhand-CSRF": self.csrf, "Content-Type": "application/json"}
+        request = urllib.request.Request(f"http://127.0.0.1:{self.port}/api/v1/{path}", body, headers)
+        found = urllib.request.urlopen(request, timeout=LONG_S)
+        assert isinstance(found, HTTPResponse)
+        return found
+
+
+def logged_in(port: int, server: subprocess.Popen[str]) -> LoggedIn:
+    url, code = link_of(server)
+    fetch(port, "/")
+    cookies: list[str] = []
+    session = post(f"{url}api/v1/session/code", {"code": code}, cookies=cookies)
+    return LoggedIn(port, cookies[0].partition(";")[0], str(session["csrf"]))
+
+
+def test_ctrl_c_ends_the_server_and_not_its_missions(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Another server finds the mission, still carried out by the same process, and commands it."""
+    monkeypatch.setenv("FIELDHAND_MISSIONS", str(tmp_path))
+    body = {"xml": inputs().document.decode(), "confirmed": list(inputs().authorized.authorization.confirmed)}
+    with serving() as (port, server):
+        ana = logged_in(port, server)
+        name = ana.post("missions", {**body, "approved_by": "Ana", "speed": 2})["id"]
+        stream = ana.stream()
+        stream.readline()
+        until(lambda: ana.get(f"missions/{name}/events")["state"] == "running")
+        pid = worker_pid(tmp_path / name)
+        os.killpg(server.pid, signal.SIGINT)
+        server.wait(LONG_S)
+        stream.close()
+    assert worker_pid(tmp_path / name) == pid
+    with serving() as (port, server):
+        ana = logged_in(port, server)
+        (found,) = ana.get("missions")
+        assert (found["id"], found["state"]) == (name, "running")
+        assert worker_pid(tmp_path / name) == pid
+        answer = ana.post(f"missions/{name}/commands", {"command": "abort"})
+        assert (answer["confirmed"], answer["by"]) == (True, name)
+        until(lambda: ana.get(f"missions/{name}/events")["state"] == "ended")
 
 
 def test_the_link_opens_a_session_once_over_tls(tmp_path: Path) -> None:

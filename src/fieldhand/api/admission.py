@@ -28,8 +28,8 @@ class Rank(IntEnum):
     OPERATOR = 3
 
 
-#: Key of the rank in a request's state.
-_RANK = "fieldhand.rank"
+#: Keys of the rank in a request's state, and of the sign that the server ends.
+_RANK, _ENDING = "fieldhand.rank", "fieldhand.ending"
 
 
 def set_rank(scope: MutableMapping[str, Any], rank: Rank) -> None:
@@ -41,6 +41,16 @@ def rank_of(scope: MutableMapping[str, Any]) -> Rank | None:
     """Return the rank that was set for a request; None if none was."""
     found = scope.get("state", {}).get(_RANK)
     return found if isinstance(found, Rank) else None
+
+
+def set_ending(scope: MutableMapping[str, Any]) -> None:
+    """Note for a request that the server ends, so that a response without end is to end now."""
+    scope.setdefault("state", {})[_ENDING] = True
+
+
+def is_ending(scope: MutableMapping[str, Any]) -> bool:
+    """Return True if the server ends."""
+    return bool(scope.get("state", {}).get(_ENDING, False))
 
 
 @dataclass(eq=False, kw_only=True)

@@ -6,13 +6,26 @@ from fastapi import FastAPI
 
 from fieldhand import __version__
 from fieldhand.api import accounts as accounts_routes
-from fieldhand.api import audit, catalogue, check, health, plan, run, session, site, tokens
+from fieldhand.api import (
+    audit,
+    catalogue,
+    check,
+    event_stream,
+    health,
+    missions,
+    plan,
+    run,
+    session,
+    site,
+    tokens,
+)
 from fieldhand.api.account_service import AccountService
 from fieldhand.api.callers import CredentialGate
 from fieldhand.api.gates import BodyGate, CallerGate, LastResort, SecurityHeaders
 from fieldhand.api.plan import Planners
 from fieldhand.api.problems import VisibleAnswer, answer_problems
 from fieldhand.api.work import Limits, Workers
+from fieldhand.fleet import Fleet
 
 
 def create_app(
@@ -21,6 +34,7 @@ def create_app(
     hosts: frozenset[str] | None,
     limits: Limits | None = None,
     accounts: AccountService | None = None,
+    fleet: Fleet | None = None,
 ) -> FastAPI:
     """Create the ASGI application of the REST API.
 
@@ -29,6 +43,7 @@ def create_app(
         hosts: Host names that requests may address; None for any.
         limits: Limits of the server's work.
         accounts: Accounts of the server; None to admit this machine alone, without login.
+        fleet: Simulated robots; None to serve no live missions.
     """
     limits = limits or Limits()
     workers = Workers(limits)
@@ -61,6 +76,9 @@ def create_app(
             health.router(accounts),
         ):
             app.include_router(router, prefix="/api/v1")
+    if fleet is not None:
+        for live in (missions.router(workers, planners, fleet, record), event_stream.router(fleet)):
+            app.include_router(live, prefix="/api/v1")
     # A request passes the middleware in the reverse order.
     app.add_middleware(BodyGate, most=limits.body_bytes)
     app.add_middleware(CredentialGate, service=accounts)

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, cast
 import h11
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-from fieldhand.api.admission import Admission, AdmittedConnection, Rank, rank_of
+from fieldhand.api.admission import Admission, AdmittedConnection, Rank, rank_of, set_ending
 
 if TYPE_CHECKING:
     from uvicorn.config import Config
@@ -134,6 +134,11 @@ class BoundedProtocol(H11Protocol):
         self._unset_keepalive_if_required()
         if not self._in_progress():
             self._await_next()
+
+    def shutdown(self) -> None:
+        if self._in_progress():
+            set_ending(cast("dict[str, Any]", self.scope))
+        super().shutdown()
 
     # --- limits ---------------------------------------------------------------------------------------------------
 

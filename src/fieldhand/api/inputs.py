@@ -6,26 +6,33 @@ No file named by a client is opened: a site is a built-in one or its data, a rob
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import PurePath
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints, model_validator
 
 from fieldhand import mission
-from fieldhand.errors import ProfileError, SiteError
+from fieldhand.errors import ProfileError, SiteError, WorldError
 from fieldhand.hidden_characters import find_hidden
 from fieldhand.language import languages
-from fieldhand.mission.documents import SiteAndRobot
+from fieldhand.mission.documents import InputFiles, SiteAndRobot
 from fieldhand.planning.planner import Answer
 from fieldhand.robot.model import RobotProfile
+from fieldhand.site.formats.files import SiteFiles
 from fieldhand.site.loader import BUILT_IN_SITES, BuiltInSite
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
 
+if TYPE_CHECKING:
+    from fieldhand.execution.drivers.simulation.world import World
+
 MAX_REQUEST = 20_000
 MAX_XML = 4_000_000
+#: Characters that names of stored site files do not have, and characters that they have at most.
+_NOT_IN_NAMES, _LONGEST_STEM = re.compile(r"[^\w -]"), 60
 
 
 def _whole(text: str) -> str:
@@ -129,27 +136,46 @@ class CheckBody(SiteAndRobotBody):
     earlier: EarlierLogs = None
 
 
-class RunBody(SiteAndRobotBody):
-    """A mission to simulate: a Task document or a request, the name of the operator, and the confirmed warnings."""
+class MissionInputBody(SiteAndRobotBody):
+    """A mission: a Task document or a request, the confirmed warnings, and the simulated world."""
 
     xml: Xml | None = None
     request: RequestText | None = None
     answers: AnswerList = []
     planner: Literal["auto", "english", "llm"] = "auto"
-    approved_by: Name | None = None
     confirmed: Warnings = []
     seed: Annotated[int, Field(ge=0, lt=2**32)] | None = None
     world: dict[str, Any] | None = None
     earlier: EarlierLogs = None
 
     @model_validator(mode="after")
-    def _one_of_both(self) -> RunBody:
+    def _one_of_both(self) -> MissionInputBody:
         if (self.xml is None) == (self.request is None):
             raise ValueError("give either xml or request")
         return self
 
 
-def answers_of(body: PlanBody | RunBody) -> tuple[Answer, ...]:
+class RunBody(MissionInputBody):
+    """A mission to simulate at once; without an account the body names who approves it."""
+
+    approved_by: Name | None = None
+
+
+class MissionBody(MissionInputBody):
+    """A mission to begin on a simulated robot; without an account the body names who approves it."""
+
+    approved_by: Name | None = None
+    speed: Annotated[float, Field(gt=0, le=1000, allow_inf_nan=False)] | Literal["max"] = 1.0
+
+
+class CommandBody(Body):
+    """A command to a mission."""
+
+    command: Literal["pause", "resume", "return", "abort"]
+    lang: Lang = "en"
+
+
+def answers_of(body: PlanBody | MissionInputBody) -> tuple[Answer, ...]:
     """Return the answers in a request body."""
     return tuple(Answer(question=given.question, answer=given.answer) for given in body.answers)
 
@@ -161,6 +187,46 @@ def open_site_and_robot(body: SiteAndRobotBody) -> SiteAndRobot:
         SiteError, ProfileError: Site or robot cannot be used.
     """
     return SiteAndRobot(site=open_choice(body.site), robot=open_robot(body.robot))
+
+
+def open_files(body: SiteAndRobotBody) -> tuple[SiteAndRobot, InputFiles]:
+    """Open the site and the robot of a request body, and return their files, too.
+
+    Raises:
+        SiteError, ProfileError: Site or robot cannot be used.
+    """
+    from fieldhand.robot.loader import profile_bytes
+    from fieldhand.site.loader import site_files
+
+    opened = open_site_and_robot(body)
+    if isinstance(body.site, str):
+        files = site_files(body.site)
+    else:
+        text = body.site.text if isinstance(body.site, SiteText) else json.dumps(body.site)
+        name = PurePath(body.site.name).stem if isinstance(body.site, SiteText) else "site"
+        kept = _NOT_IN_NAMES.sub("_", name)[:_LONGEST_STEM] or "site"
+        files = SiteFiles(parts={f"{kept}.geojson": text.encode()}, source=name)
+    return opened, InputFiles(site=files, profile=profile_bytes(body.robot)[0], lenient=False)
+
+
+def open_world(content: dict[str, Any] | None) -> World:
+    """Return the world of a simulation, with the bytes of its file; a world in which nothing fails for None.
+
+    Raises:
+        WorldError: The content is not that of a world file.
+    """
+    import yaml
+
+    from fieldhand.execution.drivers.simulation.world import World
+    from fieldhand.execution.drivers.simulation.world_file import decode_world
+
+    if content is None:
+        return World()
+    try:
+        data = yaml.safe_dump(content, allow_unicode=True, sort_keys=False).encode()
+    except RecursionError:
+        raise WorldError("is nested too deeply", where="world", advice="send a world file as JSON") from None
+    return decode_world(data, source="world")
 
 
 def open_choice(choice: BuiltInSite | SiteText | dict[str, Any]) -> Site:

@@ -62,6 +62,7 @@ def serve_forever(
     *,
     tls: tuple[Path, Path] | None = None,
     lines: Callable[[str], Iterable[str]] = lambda _: (),
+    on_start: Callable[[], object] = lambda: None,
 ) -> None:
     """Print the address and serve until Ctrl-C.
 
@@ -71,6 +72,7 @@ def serve_forever(
         port: Port to listen on.
         tls: Files of certificate and key (PEM); None for HTTP.
         lines: Returns more lines to print, for the URL of the server.
+        on_start: Called once the address is known to be free.
 
     Raises:
         InputError: The address cannot be used.
@@ -80,6 +82,7 @@ def serve_forever(
     shown = f"[{host}]" if ":" in host else host
     url = f"http{'s' if tls else ''}://{shown}:{port}/"
     print_error(f"Fieldhand is at {url} (Ctrl-C to stop)", *lines(url))
+    on_start()
     with suppress(KeyboardInterrupt):
         make_server(app, host, port, tls=tls).run()
 

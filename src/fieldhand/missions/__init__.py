@@ -35,7 +35,7 @@ from fieldhand.missions.mission_status import (
     stands_still,
     status,
 )
-from fieldhand.missions.send_command import last_command, send_command
+from fieldhand.missions.send_command import has_received_all, last_command, send_command
 from fieldhand.missions.start_checks import require_charged, require_in_place
 
 __all__ = [
@@ -52,6 +52,7 @@ __all__ = [
     "events_of",
     "exists",
     "find",
+    "has_received_all",
     "image_of",
     "is_running",
     "last_command",

@@ -47,6 +47,18 @@ def send_command(folder: Path, command: FileCommand, reason: str, *, wait: Calla
     return read_summary(folder / JOURNAL)[0] >= number
 
 
+def has_received_all(folder: Path) -> bool:
+    """Return True if a mission has received the last command.
+
+    Raises:
+        JournalError: The folder is not that of a mission.
+    """
+    from fieldhand.execution.journal.store import read_summary
+    from fieldhand.execution.operator_commands import CommandFile
+
+    return read_summary(folder / JOURNAL)[0] >= CommandFile(folder / ORDERS).last()[0]
+
+
 def last_command(folder: Path) -> str:
     """Return the last command to a mission; empty if there was none.
 

@@ -9,10 +9,14 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from fieldhand.errors import FieldhandError
+from fieldhand.hidden_characters import print_error
+
 if TYPE_CHECKING:
     from fastapi import FastAPI
 
     from fieldhand.accounts.accounts import Accounts
+    from fieldhand.fleet import Fleet
 
 #: Packages of the extra ``serve``, as they are imported.
 _PACKAGES = ("fastapi", "uvicorn", "sqlalchemy", "alembic", "argon2")
@@ -31,31 +35,56 @@ def serve(
         bool, typer.Option("--insecure", help="Let other machines log in without TLS: others can read passwords.")
     ] = False,
 ) -> None:
-    """Serve the web page and the REST API."""
+    """Serve the web page and the REST API, with live missions of simulated robots."""
+    import threading
     from contextlib import closing
 
     from fieldhand.api.serving import hosts_for, require_extra, serve_forever
     from fieldhand.program.tls_files import tls_files
 
     require_extra(*_PACKAGES)
+    from fieldhand import missions
     from fieldhand.accounts.accounts import open_accounts
+    from fieldhand.fleet import Fleet
 
     tls = tls_files(tls_cert, tls_key, ("--tls-cert", "--tls-key"))
     _require_tls(host, tls=tls is not None, insecure=insecure)
+    fleet = Fleet(missions.missions_folder(os.environ))
+    continuing = threading.Thread(target=_continue_missions, args=(fleet,), name="interrupted missions", daemon=True)
     with closing(open_accounts(os.environ)) as accounts:
-        app = compose(os.environ, hosts=hosts_for(host), accounts=accounts)
         serve_forever(
-            app, host, port, tls=tls, lines=lambda url: _greeting(url, accounts, insecure=insecure and tls is None)
+            compose(os.environ, hosts=hosts_for(host), accounts=accounts, fleet=fleet),
+            host,
+            port,
+            tls=tls,
+            lines=lambda url: _greeting(url, accounts, insecure=insecure and tls is None),
+            on_start=continuing.start,
         )
 
 
-def compose(environ: Mapping[str, str], *, hosts: frozenset[str] | None, accounts: Accounts | None = None) -> FastAPI:
+def _continue_missions(fleet: Fleet) -> None:
+    """Resume the missions that were cut off, and print their names."""
+    try:
+        for name in fleet.continue_interrupted():
+            print_error(f"going on with mission {name}")
+    except FieldhandError as error:
+        print_error(f"warning: {error}")
+
+
+def compose(
+    environ: Mapping[str, str],
+    *,
+    hosts: frozenset[str] | None,
+    accounts: Accounts | None = None,
+    fleet: Fleet | None = None,
+) -> FastAPI:
     """Create the ASGI application of the REST API and the web page.
 
     Args:
         environ: Environment variables that configure a language model.
         hosts: Host names that requests may address; None for any.
         accounts: Accounts of the server; None to admit this machine alone, without login.
+        fleet: Simulated robots; None to serve no live missions.
 
     Raises:
         InputError: The packages that serving needs are not installed.
@@ -69,7 +98,7 @@ def compose(environ: Mapping[str, str], *, hosts: frozenset[str] | None, account
     from fieldhand.web.page import page_router
 
     service = None if accounts is None else AccountService(accounts)
-    app = create_app(lambda name: mission.make_planner(name, environ), hosts=hosts, accounts=service)
+    app = create_app(lambda name: mission.make_planner(name, environ), hosts=hosts, accounts=service, fleet=fleet)
     app.include_router(page_router())
     return app
 

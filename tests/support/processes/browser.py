@@ -14,6 +14,7 @@ from fastapi import FastAPI
 from fieldhand import mission
 from fieldhand.api.app import create_app
 from fieldhand.api.work import Limits
+from fieldhand.fleet import Fleet
 from fieldhand.places.selectors import Corners, Here, Nearest, Quarter, Where
 from fieldhand.planning.planner import Answer, Outcome, Planned, Planner
 from fieldhand.robot.loader import load_robot
@@ -32,8 +33,8 @@ LOCAL = frozenset({"localhost", "127.0.0.1", "::1"})
 class Browser:
     """Calls an application as a browser on this machine does."""
 
-    def __init__(self, app: FastAPI) -> None:
-        self.app = app
+    def __init__(self, app: FastAPI, address: str = "127.0.0.1") -> None:
+        self.app, self.address = app, address
 
     def get(self, path: str, **options: Any) -> httpx.Response:
         return self.call("GET", path, **options)
@@ -43,7 +44,7 @@ class Browser:
 
     def call(self, method: str, path: str, **options: Any) -> httpx.Response:
         async def send() -> httpx.Response:
-            transport = httpx.ASGITransport(app=self.app)
+            transport = httpx.ASGITransport(app=self.app, client=(self.address, 50_000))
             async with httpx.AsyncClient(transport=transport, base_url="http://localhost:8000") as client:
                 return await client.request(method, path, **options)
 
@@ -60,10 +61,10 @@ class Says:
         return self.outcome(request, site, robot)
 
 
-def browser(planner: Planner | None = None, *, limits: Limits | None = None) -> Browser:
+def browser(planner: Planner | None = None, *, limits: Limits | None = None, fleet: Fleet | None = None) -> Browser:
     """The API with one planner for every name."""
     plans = planner or Says(outcome=lambda r, s, p: Planned(task=corner_task(r, s, p), planner="hand"))
-    return Browser(create_app(lambda name: plans, hosts=LOCAL, limits=limits))
+    return Browser(create_app(lambda name: plans, hosts=LOCAL, limits=limits, fleet=fleet))
 
 
 def corner_task(request: str, site: Site, robot: RobotProfile) -> Task:
