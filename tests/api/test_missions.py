@@ -141,7 +141,9 @@ def test_a_warning_that_is_not_confirmed_begins_nothing(still: tuple[Browser, Pa
 
 def test_a_request_that_is_not_understood_begins_nothing(tmp_path: Path) -> None:
     refuses = Says(outcome=lambda r, s, p: Refused(reasons=(Reason(what="no"),)))
-    answer = browser(refuses, fleet=Fleet(tmp_path)).post("/api/v1/missions", {"request": "dance"})
+    answer = browser(refuses, fleet=Fleet(tmp_path)).post(
+        "/api/v1/missions", {"request": "dance", "approved_by": "Ana"}
+    )
     assert (answer.status_code, answer.json()["outcome"]) == (200, "refused")
     assert list(tmp_path.iterdir()) == []
 
