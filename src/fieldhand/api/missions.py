@@ -63,7 +63,7 @@ def router(workers: Workers, planners: Planners, fleet: Fleet) -> APIRouter:
             raise no_mission(name)
         return folder
 
-    @routes.post("/missions", status_code=201)
+    @routes.post("/missions", status_code=201, dependencies=[Depends(require(Scope.COMMAND))])
     async def begin(body: MissionBody, caller: Approver, response: Response) -> dict[str, Any]:
         """Approve a mission in the name of the caller, and begin it on a simulated robot."""
         answer = await workers.do(lambda: _begin(body, caller, planners, fleet))
