@@ -192,7 +192,7 @@ def test_a_site_of_any_name_is_stored_and_read_again(still: tuple[Browser, Path]
     [
         {"readings": {"co2": {"default": 1e-7}}},
         {"readings": {"co2": 1e21}},
-        {"readings": {"co2": {"default": 400.5, "trees": [{"tree": "5", "value": 1}]}}},
+        {"readings": {"co2": {"default": 400.5, "trees": [{"id": "5", "value": 1}]}}},
         {"faults": [{"fault": "action_fails", "action": "read_co2"}], "seed": 12},
     ],
     ids=str,

@@ -7,7 +7,7 @@ import math
 from dataclasses import asdict
 from typing import Any
 
-from fieldhand.fleet import LoggedLine, MissionFeed, MissionSummary
+from fieldhand.fleet import FleetMission, LoggedLine, MissionFeed
 from fieldhand.language import ENGLISH, Language
 from fieldhand.wording.events import EventText, goal_names
 
@@ -25,7 +25,7 @@ def event_record(feed: MissionFeed, line: LoggedLine, language: Language = ENGLI
 
 
 def summary_record(
-    feed: MissionFeed, language: Language = ENGLISH, found: MissionSummary | None = None
+    feed: MissionFeed, language: Language = ENGLISH, found: FleetMission | None = None
 ) -> dict[str, Any]:
     """Return the state of a mission.
 

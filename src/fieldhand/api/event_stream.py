@@ -31,7 +31,7 @@ from fieldhand.api.missions import no_mission
 from fieldhand.api.problems import RefusedRequest
 from fieldhand.compatibility import UTC
 from fieldhand.errors import FieldhandError
-from fieldhand.fleet import Fleet, MissionSummary, SeenPosition
+from fieldhand.fleet import Fleet, FleetMission, SeenPosition
 from fieldhand.hidden_characters import visible_json
 from fieldhand.language import Language, open_language
 
@@ -52,7 +52,7 @@ class _Followed:
     """A mission that a stream follows, and what was sent of it."""
 
     after: int = 0
-    summary: MissionSummary | None = None
+    summary: FleetMission | None = None
     position: SeenPosition | None = None
 
 

@@ -64,7 +64,7 @@ def router(workers: Workers, planners: Planners, fleet: Fleet, record: Record) -
             raise no_mission(name)
         return folder
 
-    @routes.post("/missions", status_code=201)
+    @routes.post("/missions", status_code=201, dependencies=[Depends(require(Scope.COMMAND))])
     async def begin(body: MissionBody, caller: Approver, response: Response) -> dict[str, Any]:
         """Approve a mission in the name of the caller, and begin it on a simulated robot."""
         by = approver(caller, body.approved_by)

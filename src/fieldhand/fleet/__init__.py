@@ -5,16 +5,16 @@ Fleet.command ────────┘ orders
 """
 
 from fieldhand.fleet.fleet import CommandAnswer, Fleet, FleetCommand
-from fieldhand.fleet.mission_feed import LoggedLine, MissionFeed, MissionSummary
+from fieldhand.fleet.mission_feed import FleetMission, LoggedLine, MissionFeed
 from fieldhand.fleet.worker_folder import SeenPosition, WorkerSettings
 
 __all__ = [
     "CommandAnswer",
     "Fleet",
     "FleetCommand",
+    "FleetMission",
     "LoggedLine",
     "MissionFeed",
-    "MissionSummary",
     "SeenPosition",
     "WorkerSettings",
 ]

@@ -55,7 +55,7 @@ class LoggedLine:
 
 
 @dataclass(frozen=True, kw_only=True)
-class MissionSummary:
+class FleetMission:
     """The state of a mission of the fleet.
 
     Attributes:
@@ -109,7 +109,7 @@ class MissionFeed:
         self._seen: object = None
         self._read_s = -READ_EVERY_S
         self._fixed_parts: _Fixed | None = None
-        self._summary: tuple[object, float, MissionSummary] | None = None
+        self._summary: tuple[object, float, FleetMission] | None = None
 
     @property
     def task(self) -> Task:
@@ -140,7 +140,7 @@ class MissionFeed:
         """Return the last position of the robot while a worker moves it; None before the first, and at the end."""
         return self._worker.position() if self._worker.is_alive() else None
 
-    def summary(self) -> MissionSummary:
+    def summary(self) -> FleetMission:
         """Return the state of the mission, at most half a second old.
 
         Raises:
@@ -158,7 +158,7 @@ class MissionFeed:
             state: FleetState = found.state
             if state == "interrupted" and alive:
                 state = "starting"
-            summary = MissionSummary(
+            summary = FleetMission(
                 id=self.id,
                 request=fixed.task.command.request,
                 robot=fixed.robot.name,
