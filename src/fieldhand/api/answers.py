@@ -38,12 +38,13 @@ def unplanned_answer(outcome: Clarify | Refused, site_and_robot: SiteAndRobot) -
             }
 
 
-def words_answer(task: Task, language: Language = ENGLISH) -> list[dict[str, str]]:
+def words_answer(task: Task, language: Language = ENGLISH) -> list[dict[str, Any]]:
     """Return the request in pieces with the role of each; empty if the Task does not record them."""
     if not has_ranges(task):
         return []
     return [
-        {"text": p.text, "role": p.role, "name": language.say(ROLE_NAMES.get(p.role, ""))} for p in request_pieces(task)
+        {"text": p.text, "role": p.role, "name": language.say(ROLE_NAMES.get(p.role, "")), "nodes": list(p.nodes)}
+        for p in request_pieces(task)
     ]
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fastapi import FastAPI
 
 from fieldhand import __version__
-from fieldhand.api import catalogue, check, plan, run, site
+from fieldhand.api import catalogue, check, examples, plan, run, site
 from fieldhand.api.gates import BodyGate, CallerGate, LastResort, SecurityHeaders
 from fieldhand.api.plan import Planners
 from fieldhand.api.problems import VisibleAnswer, answer_problems
@@ -35,6 +35,7 @@ def create_app(planners: Planners, *, hosts: frozenset[str] | None, limits: Limi
     for router in (
         catalogue.router(workers),
         site.router(workers),
+        examples.router(workers),
         plan.router(workers, planners),
         check.router(workers),
         run.router(workers, planners, limits),

@@ -11,7 +11,17 @@ from functools import lru_cache
 from pathlib import PurePath
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints, model_validator
+from pydantic import (
+    AfterValidator,
+    Base64Bytes,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    StringConstraints,
+    ValidationError,
+    model_validator,
+)
 
 from fieldhand import mission
 from fieldhand.errors import ProfileError, SiteError
@@ -62,20 +72,34 @@ class Body(BaseModel):
 
 
 class SiteText(Body):
-    """The name and the unchanged text of a GeoJSON file, so that its SHA-256 is that of the file."""
+    """The name and the unchanged text of a site's file, so that its SHA-256 is that of the file."""
 
     name: Name = "site.geojson"
     text: Text
+
+
+class SiteBytes(Body):
+    """The name and the bytes of a site's file of a format that is not text, such as a zipped Shapefile."""
+
+    name: Name
+    base64: Base64Bytes
 
 
 def _not_a_path(value: object) -> object:
     if isinstance(value, str) and value not in BUILT_IN_SITES:
         names = ", ".join(f"'{name}'" for name in BUILT_IN_SITES)
         raise ValueError(f"a site is {names} or the GeoJSON itself, never the name of a file on the server")
+    if isinstance(value, dict) and "base64" in value:
+        # Decided here: the union would take what is wrong with it for a GeoJSON object.
+        try:
+            return SiteBytes.model_validate(value)
+        except ValidationError as error:
+            first = error.errors()[0]
+            raise ValueError(f"{'.'.join(map(str, first['loc']))}: {first['msg']}") from None
     return value
 
 
-SiteChoice = Annotated[BuiltInSite | SiteText | dict[str, Any], BeforeValidator(_not_a_path)]
+SiteChoice = Annotated[BuiltInSite | SiteText | SiteBytes | dict[str, Any], BeforeValidator(_not_a_path)]
 
 
 def _known_language(code: str) -> str:
@@ -163,19 +187,22 @@ def open_site_and_robot(body: SiteAndRobotBody) -> SiteAndRobot:
     return SiteAndRobot(site=open_choice(body.site), robot=open_robot(body.robot))
 
 
-def open_choice(choice: BuiltInSite | SiteText | dict[str, Any]) -> Site:
+def open_choice(choice: BuiltInSite | SiteText | SiteBytes | dict[str, Any]) -> Site:
     """Return a built-in site, or the one in the request body.
 
     Raises:
         SiteError: The data is not a site.
     """
-    from fieldhand.site.loader import parse_site
+    from fieldhand.site.formats.files import SiteFiles
+    from fieldhand.site.loader import parse_site, site_of
 
     if isinstance(choice, str):
         return _built_in(choice)
-    if isinstance(choice, SiteText):
-        file = PurePath(choice.name)
-        return parse_site(choice.text.encode(), name=file.stem or "site", source=file.name or "site")
+    if isinstance(choice, SiteText | SiteBytes):
+        # Only the name's last part is used, for the format and in messages; no file of that name is opened.
+        name = PurePath(choice.name).name or "site.geojson"
+        data = choice.text.encode() if isinstance(choice, SiteText) else choice.base64
+        return site_of(SiteFiles(parts={name: data}, source=name))
     try:
         data = json.dumps(choice).encode()
     except RecursionError:

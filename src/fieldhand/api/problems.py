@@ -29,7 +29,7 @@ from fieldhand.hidden_characters import json_text, visible_json
 MEDIA_TYPE = "application/problem+json"
 
 #: Parts of a pydantic location that name the tried member of a union instead of a field.
-_CHOICES = ("SiteText", "dict[str,any]", "literal['demo','vineyard']")
+_CHOICES = ("SiteText", "SiteBytes", "dict[str,any]", "literal['demo','vineyard']")
 
 
 class VisibleAnswer(JSONResponse):
