@@ -30,6 +30,11 @@ export function t(key: Key, values: Record<string, string | number> = {}): strin
   return words.replace(/\{(\w+)\}/g, (whole, name: string) => (name in values ? String(values[name]) : whole));
 }
 
+// The words of a status of a mission; a status that is not known is shown as it is.
+export function statusWords(status: string): string {
+  return DICTIONARIES[code]![`status_${status}` as Key] ?? status;
+}
+
 type Counted = { [K in Key]: `${K}_many` extends Key ? K : never }[Key];
 
 export function tn(key: Counted, count: number, values: Record<string, string | number> = {}): string {

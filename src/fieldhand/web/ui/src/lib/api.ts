@@ -1,6 +1,6 @@
 // Calls of the REST API. A failure is thrown as a Problem: what is wrong, where, and what to do.
 
-import { t } from "../lang";
+import { current, t } from "../lang";
 
 export class Problem extends Error {
   constructor(
@@ -15,7 +15,7 @@ export class Problem extends Error {
 }
 
 // Where the API is, and what a request that changes something has to carry with a session's cookie.
-export const access = { base: "/api", csrf: "" };
+export const access = { base: "/api", csrf: "", onend: (): void => {} };
 
 export const get = <T>(path: string, signal?: AbortSignal): Promise<T> => call<T>("GET", path, undefined, signal);
 
@@ -23,13 +23,16 @@ export const post = <T>(path: string, body?: unknown, signal?: AbortSignal): Pro
 
 export const remove = <T>(path: string): Promise<T> => call<T>("DELETE", path);
 
+// Missions and logins are below /api/v1 on every server that has them.
+const address = (path: string): string => (/^\/(missions|session)/.test(path) ? "/api/v1" : access.base) + path;
+
 export async function call<T>(method: string, path: string, body?: unknown, signal?: AbortSignal): Promise<T> {
-  const headers: Record<string, string> = {};
+  const headers: Record<string, string> = { "Accept-Language": current() };
   if (body !== undefined) headers["Content-Type"] = "application/json";
   if (method !== "GET" && access.csrf) headers["X-Fieldhand-CSRF"] = access.csrf;
   let response: Response;
   try {
-    response = await fetch(access.base + path, {
+    response = await fetch(address(path), {
       method,
       headers,
       ...(body === undefined ? {} : { body: JSON.stringify(body) }),
@@ -40,6 +43,7 @@ export async function call<T>(method: string, path: string, body?: unknown, sign
     throw new Problem(t("no_answer"), "", t("no_answer_advice"));
   }
   if (response.status === 204) return undefined as T;
+  if (response.status === 401 && access.csrf) access.onend();
   const answer = (await response.json().catch(() => null)) as Record<string, unknown> | null;
   if (response.ok && answer !== null) return answer as T;
   if (typeof answer?.["what"] === "string")

@@ -1,11 +1,15 @@
-// Notices within three seconds that the server cannot be reached, and that it is back.
+// Notices within three seconds that the server cannot be reached, and that it is back: by the heartbeat of the stream, or by
+// asking, where the server has no stream.
 
-const EVERY_MS = 1000;
+import { stream } from "./stream";
+
+const LOOK_MS = 500;
+const SILENT_MS = 2400; // heartbeats come every second
 const PATIENCE_MS = 1900;
 
 type Listener = (connected: boolean) => void;
 
-export class Connection {
+class Connection {
   connected = true;
   private readonly listeners: Listener[] = [];
 
@@ -13,13 +17,19 @@ export class Connection {
     this.listeners.push(listener);
   }
 
-  begin(): void {
-    const look = async () => {
-      if (!document.hidden) this.set(await answers());
-      setTimeout(look, EVERY_MS);
-    };
-    setTimeout(look, EVERY_MS);
+  begin(streaming: boolean): void {
     addEventListener("offline", () => this.set(false));
+    if (streaming) {
+      stream.begin();
+      stream.listen(() => this.set(true));
+      setInterval(() => !document.hidden && performance.now() - stream.heardAt > SILENT_MS && this.set(false), LOOK_MS);
+      return;
+    }
+    const ask = async () => {
+      if (!document.hidden) this.set(await answers());
+      setTimeout(ask, 2 * LOOK_MS);
+    };
+    void ask();
   }
 
   private set(connected: boolean): void {

@@ -20,5 +20,10 @@ export function clock(seconds: number): string {
   return h ? `${h}:${two(m)}:${two(s)}` : `${m}:${two(s)}`;
 }
 
+const UNITS: Record<string, string> = { degC: "°C", percent: "%" };
+
+// A unit of a profile as people write it.
+export const unitSign = (unit: string): string => UNITS[unit] ?? unit;
+
 // The name of an action or a quantity as words.
 export const spaced = (name: string): string => name.replaceAll("_", " ");

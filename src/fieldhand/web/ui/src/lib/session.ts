@@ -1,22 +1,25 @@
 // Who uses the page, and what that person may do. A server without accounts lets everybody do everything.
 
-import { access, get, post, Problem, remove } from "./api";
+import { use } from "../lang";
+import { access, call, get, post, Problem, remove } from "./api";
+import { remembered } from "./kept";
 
 export type Scope = "read" | "plan" | "approve" | "command" | "admin";
 
 interface Opened {
   name: string;
-  role: string;
+  local?: boolean; // the administrator of the server's own machine, who has no account
+  language: string;
   scopes: Scope[];
   csrf: string;
 }
 
-export type State = "open" | "in" | "out"; // no accounts; logged in; to be logged in
+export type State = "open" | "in" | "out" | "unknown"; // no accounts; logged in; to be logged in; the server does not answer
 
 class Session {
   state: State = "open";
   name = "";
-  role = "";
+  local = true;
   private scopes: Scope[] | null = null;
 
   may(scope: Scope): boolean {
@@ -26,7 +29,6 @@ class Session {
   // Finds out whether the server has accounts and who this is; a link with a code logs in.
   async begin(): Promise<void> {
     const code = /^#code=(.+)$/.exec(location.hash)?.[1];
-    access.base = "/api/v1";
     try {
       if (code) {
         history.replaceState(null, "", "#/ask");
@@ -35,8 +37,8 @@ class Session {
       this.take(await get<Opened>("/session"));
     } catch (problem) {
       if (!(problem instanceof Problem)) throw problem;
-      if (problem.status === 404) access.base = "/api";
-      else if (problem.status === 401 || problem.status === 403) this.state = "out";
+      if (problem.status === 404) this.state = "open";
+      else this.state = problem.status === 401 || problem.status === 403 ? "out" : "unknown";
     }
   }
 
@@ -51,10 +53,17 @@ class Session {
     this.state = "out";
   }
 
-  private take({ name, role, scopes, csrf }: Opened): void {
+  // Keeps the language with the account, for messages of the server.
+  async speak(language: string): Promise<void> {
+    if (this.state === "in") await call("PATCH", "/session", { language }).catch(() => undefined);
+  }
+
+  private take({ name, local, language, scopes, csrf }: Opened): void {
     this.state = "in";
+    access.base = "/api/v1";
     this.name = name;
-    this.role = role;
+    this.local = local ?? false;
+    if (remembered<string | null>("language", null) === null) use(language);
     this.scopes = scopes;
     access.csrf = csrf;
   }

@@ -138,3 +138,55 @@ export interface Run {
   told: string[];
   map: FeatureCollection;
 }
+
+// The state of a live mission.
+export interface MissionState {
+  id: string;
+  state: "starting" | "running" | "paused" | "interrupted" | "ended";
+  status: string;
+  reason: string;
+  request: string;
+  site: string;
+  robot: string;
+  by: string;
+  begun_at: string;
+  speed: number | "max";
+  doing: string;
+  near: string;
+  node: string;
+  lat: number | null;
+  lon: number | null;
+  seconds: number | null;
+  travelled_m: number | null;
+  charge_percent: number | null;
+  captures: number;
+  goals: Goal[];
+  report: boolean;
+  fault: string;
+}
+
+export type Mission = MissionState & Omit<Planned, "outcome" | "planner">;
+
+export interface MissionEvent {
+  mission: string;
+  n: number;
+  at: string;
+  event: LogEvent;
+  told: string;
+}
+
+export interface RobotPosition {
+  mission: string;
+  t: number;
+  lat: number;
+  lon: number;
+  heading_deg: number | null;
+  charge_percent: number | null;
+}
+
+export type Heard =
+  | { kind: "mission"; data: MissionState }
+  | { kind: "event"; data: MissionEvent }
+  | { kind: "position"; data: RobotPosition }
+  | { kind: "gone"; data: { mission: string; why: string } }
+  | { kind: "heartbeat"; data: { at: string } };

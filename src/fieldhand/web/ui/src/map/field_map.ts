@@ -4,7 +4,7 @@ import L from "leaflet";
 
 import { t } from "../lang";
 import { el, icon } from "../lib/dom";
-import { number, spaced } from "../lib/figures";
+import { number, spaced, unitSign } from "../lib/figures";
 import type { Feature } from "../lib/types";
 import { DriveLayer, type Capture, type Robot } from "./drive_layer";
 import { boxOf, positions, Projection, type Point } from "./geometry";
@@ -243,7 +243,7 @@ export class FieldMap {
 }
 
 export function captureWords({ action, place, status, readings, units }: Capture): string {
-  const read = Object.entries(readings).map(([name, value]) => `${spaced(name)} ${number(value, 2)} ${units[name] ?? ""}`.trim());
+  const read = Object.entries(readings).map(([name, value]) => `${spaced(name)} ${number(value, 2)} ${unitSign(units[name] ?? "")}`.trim());
   return [`${spaced(action)}, ${place}`, ...read, status === "success" ? "" : spaced(status)].filter(Boolean).join("; ");
 }
 

@@ -3,7 +3,7 @@
 import { t, tn } from "../lang";
 import { el, notice, save, sentence, type Child } from "../lib/dom";
 import { duration, metres, number } from "../lib/figures";
-import type { Answer, Clarify, Figure, Planned, ReadBackLine, Refused, Word } from "../lib/types";
+import type { Answer, Clarify, Figure, Planned, ReadBack, ReadBackLine, Refused, Word } from "../lib/types";
 import type { FieldMap } from "../map/field_map";
 import { choiceColour, type Stop } from "../map/plan_layer";
 
@@ -20,17 +20,23 @@ export const answerTitle = (answer: Answer): string => t(answer.outcome === "pla
 export function renderAnswer(answer: Answer, map: FieldMap, asking: Asking): Child[] {
   if (answer.outcome === "clarify") return question(answer, map, asking);
   if (answer.outcome === "refused") return refusal(answer, asking);
+  return planText(answer, map);
+}
+
+// A plan in words, whether it was just made or is under way.
+export function planText(plan: PlanInWords, map: FieldMap): Child[] {
   const parts: Child[] = [];
-  if (answer.read_back) parts.push(forecast(answer));
-  parts.push(...words(answer.words, map), ...problems(answer));
-  if (answer.read_back) parts.push(steps(answer.read_back.lines, map), ...rest(answer));
-  parts.push(taskDocument(answer));
+  if (plan.read_back) parts.push(forecast(plan.read_back));
+  parts.push(...words(plan.words, map), ...problems(plan));
+  if (plan.read_back) parts.push(steps(plan.read_back.lines, map), ...rest(plan.read_back, plan.headings));
+  parts.push(taskDocument(plan));
   return parts;
 }
 
+type PlanInWords = Omit<Planned, "outcome" | "planner"> & { planner?: string };
+
 // What it will take, in one sentence.
-function forecast({ read_back: back }: Planned): HTMLElement {
-  const { metres: way, seconds, percent, captures, branches } = back!.totals;
+function forecast({ totals: { metres: way, seconds, percent, captures, branches } }: ReadBack): HTMLElement {
   const facts = { metres: metres(way.mean), time: duration(seconds.mean), most: duration(seconds.p90), percent: number(percent.mean, percent.mean < 10 ? 1 : 0) };
   const said = `${t("forecast", facts)} ${tn("forecast_captures", captures)}`;
   return el("p", { class: "forecast" }, said, branches > 1 ? ` ${t("forecast_worst")}` : "");
@@ -117,7 +123,7 @@ export function marked(request: string, spans: [number, number][]): Child[] {
   return parts;
 }
 
-const problems = (answer: Planned): Child[] =>
+const problems = (answer: PlanInWords): Child[] =>
   answer.problems.map(({ severity, where, what, advice }) =>
     notice(
       severity,
@@ -148,10 +154,11 @@ function step(line: ReadBackLine, nodes: string[], map: FieldMap): HTMLElement {
     el("span", { class: "text" }, line.text, stops.length ? badges(stops) : null),
   ];
   const indent = `indent-${Math.min(line.indent, 5)}`;
-  if (!stops.length) return el("li", { class: indent }, el("div", { class: "step" }, content));
+  const allNodes = [line.node, ...line.also].join(" ");
+  if (!stops.length) return el("li", { class: indent, "data-nodes": allNodes }, el("div", { class: "step" }, content));
   const button = el("button", { type: "button", class: "step" }, content);
   lights(button, nodes, map);
-  return el("li", { class: indent }, button);
+  return el("li", { class: indent, "data-nodes": allNodes }, button);
 }
 
 function badges(stops: Stop[]): HTMLElement {
@@ -161,14 +168,14 @@ function badges(stops: Stop[]): HTMLElement {
 
 const badge = (stop: Stop) => el("span", { class: stop.branch ? "badge stop other" : "badge stop", title: `${t("stop")} ${stop.number}` }, String(stop.number));
 
-function rest({ read_back: back, headings }: Planned): Child[] {
+function rest(back: ReadBack, headings: Record<string, string>): Child[] {
   const part = (name: string, lines: string[]): Child[] =>
     lines.length ? [el("h3", {}, name), el("ul", { class: "plain" }, lines.map((line) => el("li", {}, sentence(line))))] : [];
   const kinds = ["times", "assumptions", "notes", "limits", "faults"] as const;
-  return [...kinds.flatMap((kind) => part(headings[kind] ?? "", back![kind])), totals(back!.totals, headings)];
+  return [...kinds.flatMap((kind) => part(headings[kind] ?? "", back[kind])), totals(back.totals, headings)];
 }
 
-function totals({ metres: way, seconds, percent, captures }: NonNullable<Planned["read_back"]>["totals"], headings: Record<string, string>): HTMLElement {
+function totals({ metres: way, seconds, percent, captures }: ReadBack["totals"], headings: Record<string, string>): HTMLElement {
   const row = (name: string | undefined, ...cells: string[]) => el("tr", {}, el("th", { scope: "row" }, name ?? ""), cells.map((cell) => el("td", {}, cell)));
   const figures = (figure: Figure, say: (value: number) => string) => [figure.mean, figure.p50, figure.p90].map(say);
   return el(
@@ -195,12 +202,12 @@ function totals({ metres: way, seconds, percent, captures }: NonNullable<Planned
   );
 }
 
-const taskDocument = (answer: Planned): HTMLElement =>
+const taskDocument = (answer: PlanInWords): HTMLElement =>
   el(
     "details",
     { class: "more" },
     el("summary", {}, t("task_document")),
-    el("p", { class: "hint" }, `${t("planned_by")} ${answer.planner}`),
+    answer.planner ? el("p", { class: "hint" }, `${t("planned_by")} ${answer.planner}`) : null,
     el("pre", { tabindex: 0, role: "group", "aria-label": t("task_document") }, answer.xml),
     el("button", { type: "button", onclick: () => save("task.xml", "application/xml", answer.xml) }, t("download", { name: "task.xml" })),
   );

@@ -40,6 +40,7 @@ export class AskPage implements Page {
   private readonly robotHint = el("p", { class: "hint" });
   private readonly examples = el("div", { class: "examples", role: "group", "aria-label": t("examples") });
   private readonly planButton = el("button", { class: "main", type: "submit" }, t("plan"));
+  private readonly viewerHint = el("p", { class: "hint", hidden: true }, t("may_not_plan"));
   private readonly planNotice = el("div", { role: "alert" });
   private readonly answerTitle = el("h2", { id: "answer-title" });
   private readonly answerBody = el("div", {});
@@ -48,6 +49,9 @@ export class AskPage implements Page {
   private readonly confirm = el("fieldset", { class: "confirm", hidden: true }, el("legend", {}, t("confirm")), this.ticks);
   private readonly by = el("input", { autocomplete: "name", maxlength: 100, required: true });
   private readonly seed = el("input", { type: "number", inputmode: "numeric", min: 0, max: 4_294_967_295, step: 1, value: 0 });
+  private readonly speed = el("select", {}, [["1", "1×"], ["10", "10×"], ["100", "100×"], ["max", t("speed_max")]].map(([value, words]) => el("option", { value: value!, selected: value === "10" }, words!)));
+  private readonly speedField = el("div", { hidden: true }, field(t("speed"), this.speed));
+  private readonly nameField = field(t("your_name"), this.by);
   private readonly runButton = el("button", { class: "main", type: "submit" }, t("approve_simulate"));
   private readonly runNotice = el("div", { role: "alert" });
   private readonly approveCard: HTMLElement;
@@ -95,6 +99,7 @@ export class AskPage implements Page {
       { onsubmit: (event: Event) => this.submit(event, () => this.plan([])) },
       el("div", { class: "request" }, this.request, this.microphone()),
       this.planButton,
+      this.viewerHint,
       this.planNotice,
       this.examples,
       el(
@@ -121,8 +126,8 @@ export class AskPage implements Page {
         "form",
         { onsubmit: (event: Event) => this.submit(event, () => this.approve()) },
         this.confirm,
-        field(t("your_name"), this.by),
-        el("details", { class: "more" }, el("summary", {}, t("simulation")), field(t("seed"), this.seed, t("seed_hint"))),
+        this.nameField,
+        el("details", { class: "more" }, el("summary", {}, t("simulation")), this.speedField, field(t("seed"), this.seed, t("seed_hint"))),
         this.runButton,
         this.runNotice,
       ),
@@ -156,7 +161,12 @@ export class AskPage implements Page {
   // Fills the lists, shows the site, and what was planned last.
   private async open(wanted: string): Promise<void> {
     const before = this.site.value || remembered("site", "demo");
-    if (session.name && !this.by.value) this.by.value = session.name;
+    // Who has an account approves under its name.
+    if (!session.local) this.by.value = session.name;
+    this.nameField.hidden = !session.local;
+    this.planButton.disabled = !session.may("plan");
+    this.viewerHint.hidden = session.may("plan");
+    void missionsOffered().then((offered) => (this.speedField.hidden = !offered));
     try {
       await this.listSites(wanted || before);
       if (wanted) {
@@ -322,13 +332,14 @@ export class AskPage implements Page {
     if (this.last?.answer.outcome !== "planned") return;
     const { site: id, robot, answer } = this.last;
     const by = this.by.value.trim();
-    remember("by", by);
+    if (session.local) remember("by", by);
     const confirmed = [...this.ticks.querySelectorAll<HTMLInputElement>("input:checked")].map((box) => box.value);
     const seed = Number(this.seed.value || 0);
     await this.during(this.runButton, this.runNotice, async (signal) => {
-      const mission = { xml: answer.xml, site: await choiceOf(id), robot, lang: answer.language, confirmed, seed };
-      if (await missionsOffered()) await this.start(mission, signal);
-      else await this.simulate({ ...mission, approved_by: by }, signal);
+      const mission = { approved_by: by, xml: answer.xml, site: await choiceOf(id), robot, lang: answer.language, confirmed, seed };
+      const speed = this.speed.value === "max" ? "max" : Number(this.speed.value);
+      if (await missionsOffered()) await this.start({ ...mission, speed }, signal);
+      else await this.simulate(mission, signal);
     });
   }
 

@@ -1,6 +1,6 @@
 // A simulated mission: its outcome, and its drive over the map by a time slider.
 
-import { t } from "../lang";
+import { statusWords, t } from "../lang";
 import { el, icon, notice, replace, sentence, type Child } from "../lib/dom";
 import { clock, duration, metres, number } from "../lib/figures";
 import type { Feature, Run } from "../lib/types";
@@ -33,6 +33,7 @@ export class Replay {
   constructor(
     private readonly run: Run,
     private readonly map: FieldMap,
+    private readonly offersFiles = true,
   ) {
     const projection = map.projection!;
     const of = (role: string) => run.map.features.filter((f) => f.properties.role === role);
@@ -67,8 +68,8 @@ export class Replay {
       readingChooser(this.captures, this.map),
       captureTable(this.captures),
       el("details", { class: "more" }, el("summary", {}, `${t("events")} (${this.lines.length})`), this.list),
-      resultFiles(captures, log),
-      el("p", { class: "hint" }, t("approved_by", { name: run.authorization.by, time: localTime(run.authorization.at) })),
+      this.offersFiles && resultFiles(captures, log),
+      this.offersFiles && el("p", { class: "hint" }, t("approved_by", { name: run.authorization.by, time: localTime(run.authorization.at) })),
     ];
   }
 
@@ -135,4 +136,4 @@ export class Replay {
   }
 }
 
-export const replayTitle = (run: Run): string => (run.success ? t("done") : t("mission_status", { status: run.status }));
+export const replayTitle = (run: Run): string => (run.success ? t("done") : t("mission_status", { status: statusWords(run.status) }));

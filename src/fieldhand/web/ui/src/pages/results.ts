@@ -5,7 +5,7 @@ import "uplot/dist/uPlot.min.css";
 
 import { current, t } from "../lang";
 import { el, replace, save, type Child } from "../lib/dom";
-import { clock, number, spaced } from "../lib/figures";
+import { clock, number, spaced, unitSign } from "../lib/figures";
 import type { Feature, Goal } from "../lib/types";
 import type { Capture } from "../map/drive_layer";
 import type { FieldMap } from "../map/field_map";
@@ -31,7 +31,7 @@ export const goalList = (goals: Goal[]): HTMLElement =>
 
 const quantities = (captures: Capture[]): string[] => [...new Set(captures.flatMap(({ readings }) => Object.keys(readings)))].sort();
 
-const unitOf = (captures: Capture[], quantity: string): string => captures.find(({ units }) => units[quantity])?.units[quantity] ?? "";
+const unitOf = (captures: Capture[], quantity: string): string => unitSign(captures.find(({ units }) => units[quantity])?.units[quantity] ?? "");
 
 // A choice of the reading that colours the map, its colours, and the readings over time.
 export function readingChooser(captures: Capture[], map: FieldMap): HTMLElement | null {

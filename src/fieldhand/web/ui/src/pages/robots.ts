@@ -3,7 +3,7 @@
 import { t } from "../lang";
 import { get } from "../lib/api";
 import { el, replace, type Child } from "../lib/dom";
-import { duration, spaced } from "../lib/figures";
+import { duration, spaced, unitSign } from "../lib/figures";
 import { problemNotice } from "../lib/problems";
 import type { Page } from "../lib/router";
 import type { Robot } from "../lib/types";
@@ -36,7 +36,7 @@ export class RobotsPage implements Page {
 async function card({ name, description }: Robot): Promise<HTMLElement> {
   const { actions, quantities } = await get<Profile>(`/robots/${encodeURIComponent(name)}`);
   const units = new Map(quantities.map((one) => [one.name, one.unit]));
-  const measured = (names: string[]): Child => (names.length ? el("span", { class: "hint" }, `${t("measures")} ${names.map((one) => `${spaced(one)} (${units.get(one) ?? ""})`).join(", ")}`) : null);
+  const measured = (names: string[]): Child => (names.length ? el("span", { class: "hint" }, `${t("measures")} ${names.map((one) => `${spaced(one)} (${unitSign(units.get(one) ?? "")})`).join(", ")}`) : null);
   return el(
     "section",
     { class: "card", "aria-label": name },
