@@ -211,3 +211,17 @@ def test_words_of_places_name_the_nodes_of_their_stops() -> None:
     found = {text: {s["place"] for s in stops if own & set(s["nodes"])} for text, own in nodes.items()}
     assert found == {"four corner trees": {"1", "19", "152", "169"}, "tree 50": {"50"}}
     assert all(piece["nodes"] == [] for piece in plan["words"] if piece["role"] == "between")
+
+
+def test_questions_and_refusals_are_shown_in_the_language_asked_for() -> None:
+    api = browser(EnglishPlanner())
+    body = {"request": "Photograph row 15.", "site": "vineyard", "lang": "es"}
+    question = api.post("/api/plan", body).json()
+    assert question["shown"]["question"] != question["question"]
+    assert len(question["shown"]["choices"]) == len(question["choices"]) == 2
+    assert all(choice.startswith("En cada uno") for choice in question["shown"]["choices"])
+    # What is sent back is what was asked in English.
+    answer = {"question": question["question"], "answer": question["choices"][0]}
+    assert api.post("/api/plan", {**body, "answers": [answer]}).json()["outcome"] == "planned"
+    refusal = api.post("/api/plan", {"request": "Spray the oldest trees.", "lang": "es"}).json()
+    assert "no puede" in refusal["reasons"][0]["what"]

@@ -63,7 +63,8 @@ class Session {
     access.base = "/api/v1";
     this.name = name;
     this.local = local ?? false;
-    if (remembered<string | null>("language", null) === null) use(language);
+    // The choice on this device comes first, then that of the account; who has none keeps the browser's.
+    if (!this.local && remembered<string | null>("language", null) === null) use(language);
     this.scopes = scopes;
     access.csrf = csrf;
   }
