@@ -12,7 +12,7 @@ help:
 	@echo "make demo           set up, then two whole missions on built-in sites (results in out/)"
 	@echo "make test           set up, then every test"
 	@echo "make test-versions  set up, then the fast tests on every other Python at hand"
-	@echo "make check          set up, then lint, types, minimal versions, import rules"
+	@echo "make check          set up, then lint, types (Python, TypeScript), minimal versions, import rules"
 	@echo "make docs           set up, then these pages as one site with search (build/docs)"
 	@echo "make setup          the environment alone, in .venv"
 
@@ -28,6 +28,7 @@ demo: $(READY)
 
 # The rewritten assertions of the tests are kept for the next run, also where Python is told to keep no bytecode.
 test: $(READY)
+	@$(BIN)/python scripts/build_page.py
 	@env -u PYTHONDONTWRITEBYTECODE $(BIN)/python -m pytest -n $(WORKERS) --dist worksteal
 
 # Seconds for all other releases of Python; what is not tested by then is named.
@@ -44,6 +45,7 @@ check: $(READY)
 	@# The installed stubs of numpy are for newer releases: here, some of their functions return Any.
 	$(BIN)/mypy --python-version 3.10 --no-warn-return-any --no-warn-unused-ignores
 	$(BIN)/lint-imports
+	$(BIN)/python scripts/build_page.py --check
 
 docs: $(READY)
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e ".[docs]"

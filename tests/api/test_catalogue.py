@@ -50,6 +50,7 @@ def test_the_schema_of_the_api_names_every_address() -> None:
         "/api/robots/{name}",
         "/api/languages",
         "/api/site",
+        "/api/examples",
         "/api/plan",
         "/api/check",
         "/api/run",

@@ -201,3 +201,27 @@ def test_a_plan_is_read_back_in_the_language_that_was_asked_for() -> None:
 def test_the_approval_says_in_which_language_it_was_read() -> None:
     body = {"request": "Take a picture of tree 4.", "lang": "es", "approved_by": "Ana", "planner": "english"}
     assert browser(EnglishPlanner()).post("/api/run", body).json()["authorization"]["language"] == "es"
+
+
+def test_words_of_places_name_the_nodes_of_their_stops() -> None:
+    request = "Measure CO2 at the four corner trees and take a picture of tree 50."
+    plan = browser(EnglishPlanner()).post("/api/plan", {"request": request}).json()
+    nodes = {piece["text"]: set(piece["nodes"]) for piece in plan["words"] if piece["role"] == "place"}
+    stops = [f["properties"] for f in plan["map"]["features"] if f["properties"]["role"] == "stop"]
+    found = {text: {s["place"] for s in stops if own & set(s["nodes"])} for text, own in nodes.items()}
+    assert found == {"four corner trees": {"1", "19", "152", "169"}, "tree 50": {"50"}}
+    assert all(piece["nodes"] == [] for piece in plan["words"] if piece["role"] == "between")
+
+
+def test_questions_and_refusals_are_shown_in_the_language_asked_for() -> None:
+    api = browser(EnglishPlanner())
+    body = {"request": "Photograph row 15.", "site": "vineyard", "lang": "es"}
+    question = api.post("/api/plan", body).json()
+    assert question["shown"]["question"] != question["question"]
+    assert len(question["shown"]["choices"]) == len(question["choices"]) == 2
+    assert all(choice.startswith("En cada uno") for choice in question["shown"]["choices"])
+    # What is sent back is what was asked in English.
+    answer = {"question": question["question"], "answer": question["choices"][0]}
+    assert api.post("/api/plan", {**body, "answers": [answer]}).json()["outcome"] == "planned"
+    refusal = api.post("/api/plan", {"request": "Spray the oldest trees.", "lang": "es"}).json()
+    assert "no puede" in refusal["reasons"][0]["what"]

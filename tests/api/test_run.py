@@ -161,3 +161,15 @@ def test_a_world_that_is_none_is_said() -> None:
     answer = browser().post("/api/run", {"xml": XML, "approved_by": "Ana", "world": {"reading": {}}})
     assert answer.status_code == 400
     assert "reading" in answer.json()["what"] + answer.json()["where"]
+
+
+def test_a_run_is_told_in_the_language_asked_for() -> None:
+    body = {"xml": corner_xml(), "approved_by": "Ana", "lang": "es"}
+    warnings = browser().post("/api/check", {"xml": corner_xml(), "lang": "es"}).json()["warnings"]
+    spanish = browser().post("/api/run", {**body, "confirmed": warnings}).json()
+    english = browser().post("/api/run", {**body, "lang": "en", "confirmed": list(corner_warnings())}).json()
+    assert spanish["told"] != english["told"]
+    assert any("árbol" in line for line in spanish["told"])
+    assert [goal["outcome"] for goal in spanish["goals"]] == [goal["outcome"] for goal in english["goals"]]
+    assert spanish["goals"][0]["why"] != english["goals"][0]["why"]
+    assert spanish["events"] == english["events"]

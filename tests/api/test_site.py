@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import base64
 import hashlib
 import json
+import zipfile
 from pathlib import Path
 from typing import Any
 
@@ -131,3 +133,57 @@ def test_the_map_holds_the_rows_with_the_trees_that_stand_in_them() -> None:
         assert len(feature["geometry"]["coordinates"]) == len(row.trees)
     named = {f["properties"]["id"]: f["properties"]["row"] for f in features if f["properties"]["role"] == "tree"}
     assert named == {t.place.id: t.row for t in site.trees}
+
+
+TABLE = "id,latitude,longitude\n" + "\n".join(f"{k},{48 + 2e-5 * k},8.0" for k in range(6)) + "\n"
+
+
+def test_a_table_is_a_site_by_the_name_of_its_file() -> None:
+    known = browser().post("/api/site", {"site": {"name": "field.csv", "text": TABLE}}).json()
+    assert (known["name"], known["trees"]) == ("field", 6)
+    assert known["sha256"] == hashlib.sha256(TABLE.encode()).hexdigest()
+
+
+def test_bytes_are_the_same_site_as_their_text() -> None:
+    text = browser().post("/api/site", {"site": {"name": "field.csv", "text": TABLE}}).json()
+    packed = base64.b64encode(TABLE.encode()).decode()
+    assert browser().post("/api/site", {"site": {"name": "field.csv", "base64": packed}}).json() == text
+
+
+def test_an_archive_of_a_gis_format_is_read(tmp_path: Path) -> None:
+    pytest.importorskip("pyogrio")
+    kml = (
+        '<kml xmlns="http://www.opengis.net/kml/2.2"><Document>'
+        + "".join(
+            f"<Placemark><Point><coordinates>8,{48 + k * 2e-5}</coordinates></Point></Placemark>" for k in range(5)
+        )
+        + "</Document></kml>"
+    )
+    archive = tmp_path / "field.kmz"
+    with zipfile.ZipFile(archive, "w") as packed:
+        packed.writestr("doc.kml", kml)
+    body = {"name": "field.kmz", "base64": base64.b64encode(archive.read_bytes()).decode()}
+    assert browser().post("/api/site", {"site": body}).json()["trees"] == 5
+
+
+@pytest.mark.parametrize(
+    ("site", "status"),
+    [
+        ({"name": "field.zip", "base64": "not base64!"}, 422),
+        ({"name": "field.zip", "base64": base64.b64encode(b"no archive").decode()}, 400),
+        ({"name": "field.kmz", "base64": base64.b64encode(b"PK\x03\x04 broken").decode()}, 400),
+        ({"name": "field.csv", "base64": ""}, 400),
+    ],
+)
+def test_files_that_are_no_site_are_said_in_words(site: dict[str, Any], status: int) -> None:
+    answer = browser().post("/api/site", {"site": site})
+    assert answer.status_code == status
+    assert answer.json()["what"]
+
+
+def test_the_path_in_the_name_of_a_file_is_not_followed(tmp_path: Path) -> None:
+    secret = tmp_path / "secret.csv"
+    secret.write_text(TABLE)
+    answer = browser().post("/api/site", {"site": {"name": str(secret), "text": "id,latitude,longitude\n1,48,8\n"}})
+    assert answer.json()["trees"] == 1
+    assert str(tmp_path) not in answer.text

@@ -5,29 +5,42 @@ from __future__ import annotations
 import json
 import shutil
 import subprocess
+from pathlib import Path
 from random import Random
 from typing import Any
 
 import pytest
 
-from fieldhand.web.page import assets
 from support.processes.patience import LONG_S
 
 NODE = shutil.which("node")
-pytestmark = pytest.mark.skipif(NODE is None, reason="no node is installed here")
+UI = Path(__file__).parents[2] / "src" / "fieldhand" / "web" / "ui"
+BUNDLER = UI / "node_modules" / "esbuild" / "bin" / "esbuild"
+pytestmark = [
+    pytest.mark.skipif(NODE is None, reason="no node is installed here"),
+    pytest.mark.skipif(not BUNDLER.is_file(), reason="the packages of the page are not installed here"),
+]
 
 Box = tuple[float, float, float, float]
 
 
-def run(tmp_path: Any, call: str, *given: object) -> Any:
+@pytest.fixture(scope="module")
+def module(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The script as JavaScript."""
+    built = tmp_path_factory.mktemp("names") / "names.mjs"
+    command = [str(BUNDLER), str(UI / "src" / "map" / "names.ts"), f"--outfile={built}", "--format=esm"]
+    subprocess.run(command, capture_output=True, timeout=LONG_S, check=True)
+    return built
+
+
+def run(module: Path, call: str, *given: object) -> Any:
     """Return the result of a function of the script."""
-    (tmp_path / "names.mjs").write_bytes(assets()["names.js"].data)
-    (tmp_path / "run.mjs").write_text(
-        "import * as names from './names.mjs';\n"
-        f"console.log(JSON.stringify(names.{call}(...JSON.parse(process.argv[2]))));\n"
+    script = (
+        f"import * as names from {json.dumps(str(module))};"
+        f"console.log(JSON.stringify(names.{call}(...JSON.parse(process.argv[1]))));"
     )
     assert NODE is not None
-    words = [NODE, str(tmp_path / "run.mjs"), json.dumps(given)]
+    words = [NODE, "--input-type=module", "--eval", script, json.dumps(given)]
     return json.loads(subprocess.run(words, capture_output=True, text=True, timeout=LONG_S, check=True).stdout)
 
 
@@ -41,7 +54,7 @@ def shares(a: Box, b: Box) -> bool:
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_no_name_covers_another_or_leaves_a_phone(seed: int, tmp_path: Any) -> None:
+def test_no_name_covers_another_or_leaves_a_phone(seed: int, module: Path) -> None:
     random = Random(seed)
     names = [
         {
@@ -52,7 +65,7 @@ def test_no_name_covers_another_or_leaves_a_phone(seed: int, tmp_path: Any) -> N
         for _ in range(300)
     ]
     sign = (100.0, 100.0, 126.0, 126.0)
-    found = run(tmp_path, "placed", names, [0, 0, 390, 400], [sign])
+    found = run(module, "placed", names, [0, 0, 390, 400], [sign])
     boxes = [box(name, spot) for name, spot in zip(names, found, strict=True) if spot]
     assert 20 < len(boxes) < 300
     for k, one in enumerate(boxes):
@@ -65,7 +78,7 @@ def test_no_name_covers_another_or_leaves_a_phone(seed: int, tmp_path: Any) -> N
     assert all(spots)
 
 
-def test_of_a_long_count_the_ends_and_round_numbers_come_first(tmp_path: Any) -> None:
-    worth = {number: run(tmp_path, "worth", number, 117) for number in (1, 117, 100, 50, 40, 30, 15, 7)}
+def test_of_a_long_count_the_ends_and_round_numbers_come_first(module: Path) -> None:
+    worth = {number: run(module, "worth", number, 117) for number in (1, 117, 100, 50, 40, 30, 15, 7)}
     assert worth[1] == worth[117] == min(worth.values())
     assert [worth[n] for n in (100, 50, 40, 30, 15, 7)] == sorted({worth[n] for n in (100, 50, 40, 30, 15, 7)})

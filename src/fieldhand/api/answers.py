@@ -14,8 +14,13 @@ from fieldhand.task.frames import Task
 from fieldhand.task.request_coverage import ROLE_NAMES, has_ranges, request_pieces
 
 
-def unplanned_answer(outcome: Clarify | Refused, site_and_robot: SiteAndRobot) -> dict[str, Any]:
-    """Return the response of a question, with the places of its choices, or of a refusal."""
+def unplanned_answer(
+    outcome: Clarify | Refused, site_and_robot: SiteAndRobot, language: Language = ENGLISH
+) -> dict[str, Any]:
+    """Return the response of a question, with the places of its choices, or of a refusal.
+
+    A question and its choices stay English, since they are sent back as an answer; ``shown`` has them in the language.
+    """
     match outcome:
         case Clarify():
             return {
@@ -23,27 +28,39 @@ def unplanned_answer(outcome: Clarify | Refused, site_and_robot: SiteAndRobot) -
                 "planner": outcome.planner,
                 "question": outcome.question,
                 "choices": list(outcome.choices),
+                "shown": {
+                    "question": language.say(outcome.question),
+                    "choices": [language.say(choice) for choice in outcome.choices],
+                },
                 "free": outcome.free,
                 "places": [[place.id for place in one] for one in outcome.places],
                 "map": choices_map(site_and_robot.site, outcome.places),
             }
         case Refused():
-            reasons = [{"what": r.what, "said": [list(s) for s in r.said], "advice": r.advice} for r in outcome.reasons]
+            reasons = [
+                {
+                    "what": language.say(r.what),
+                    "said": [list(s) for s in r.said],
+                    "advice": language.say(r.advice),
+                }
+                for r in outcome.reasons
+            ]
             return {
                 "outcome": "refused",
                 "planner": outcome.planner,
                 "reasons": reasons,
-                "understood": list(outcome.understood),
+                "understood": [language.say(part) for part in outcome.understood],
                 "example": outcome.example,
             }
 
 
-def words_answer(task: Task, language: Language = ENGLISH) -> list[dict[str, str]]:
+def words_answer(task: Task, language: Language = ENGLISH) -> list[dict[str, Any]]:
     """Return the request in pieces with the role of each; empty if the Task does not record them."""
     if not has_ranges(task):
         return []
     return [
-        {"text": p.text, "role": p.role, "name": language.say(ROLE_NAMES.get(p.role, ""))} for p in request_pieces(task)
+        {"text": p.text, "role": p.role, "name": language.say(ROLE_NAMES.get(p.role, "")), "nodes": list(p.nodes)}
+        for p in request_pieces(task)
     ]
 
 

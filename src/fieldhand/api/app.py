@@ -11,6 +11,7 @@ from fieldhand.api import (
     catalogue,
     check,
     event_stream,
+    examples,
     health,
     missions,
     plan,
@@ -61,6 +62,7 @@ def create_app(
     for router in (
         catalogue.router(workers),
         site.router(workers),
+        examples.router(workers),
         plan.router(workers, planners, record),
         check.router(workers),
         run.router(workers, planners, limits, record),

@@ -12,7 +12,17 @@ from functools import lru_cache
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints, model_validator
+from pydantic import (
+    AfterValidator,
+    Base64Bytes,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    StringConstraints,
+    ValidationError,
+    model_validator,
+)
 
 from fieldhand import mission
 from fieldhand.errors import ProfileError, SiteError, WorldError
@@ -32,7 +42,7 @@ if TYPE_CHECKING:
 MAX_REQUEST = 20_000
 MAX_XML = 4_000_000
 #: Characters that names of stored site files do not have, and characters that they have at most.
-_NOT_IN_NAMES, _LONGEST_STEM = re.compile(r"[^\w -]"), 60
+_NOT_IN_NAMES, _LONGEST_STEM, _LONGEST_ENDING = re.compile(r"[^\w -]"), 60, 10
 
 
 def _whole(text: str) -> str:
@@ -69,20 +79,34 @@ class Body(BaseModel):
 
 
 class SiteText(Body):
-    """The name and the unchanged text of a GeoJSON file, so that its SHA-256 is that of the file."""
+    """The name and the unchanged text of a site's file, so that its SHA-256 is that of the file."""
 
     name: Name = "site.geojson"
     text: Text
+
+
+class SiteBytes(Body):
+    """The name and the bytes of a site's file of a format that is not text, such as a zipped Shapefile."""
+
+    name: Name
+    base64: Base64Bytes
 
 
 def _not_a_path(value: object) -> object:
     if isinstance(value, str) and value not in BUILT_IN_SITES:
         names = ", ".join(f"'{name}'" for name in BUILT_IN_SITES)
         raise ValueError(f"a site is {names} or the GeoJSON itself, never the name of a file on the server")
+    if isinstance(value, dict) and "base64" in value:
+        # Decided here: the union would take what is wrong with it for a GeoJSON object.
+        try:
+            return SiteBytes.model_validate(value)
+        except ValidationError as error:
+            first = error.errors()[0]
+            raise ValueError(f"{'.'.join(map(str, first['loc']))}: {first['msg']}") from None
     return value
 
 
-SiteChoice = Annotated[BuiltInSite | SiteText | dict[str, Any], BeforeValidator(_not_a_path)]
+SiteChoice = Annotated[BuiltInSite | SiteText | SiteBytes | dict[str, Any], BeforeValidator(_not_a_path)]
 
 
 def _known_language(code: str) -> str:
@@ -199,13 +223,7 @@ def open_files(body: SiteAndRobotBody) -> tuple[SiteAndRobot, InputFiles]:
     from fieldhand.site.loader import site_files
 
     opened = open_site_and_robot(body)
-    if isinstance(body.site, str):
-        files = site_files(body.site)
-    else:
-        text = body.site.text if isinstance(body.site, SiteText) else json.dumps(body.site)
-        name = PurePath(body.site.name).stem if isinstance(body.site, SiteText) else "site"
-        kept = _NOT_IN_NAMES.sub("_", name)[:_LONGEST_STEM] or "site"
-        files = SiteFiles(parts={f"{kept}.geojson": text.encode()}, source=name)
+    files = site_files(body.site) if isinstance(body.site, str) else _sent_files(body.site)
     return opened, InputFiles(site=files, profile=profile_bytes(body.robot)[0], lenient=False)
 
 
@@ -229,24 +247,32 @@ def open_world(content: dict[str, Any] | None) -> World:
     return decode_world(data, source="world")
 
 
-def open_choice(choice: BuiltInSite | SiteText | dict[str, Any]) -> Site:
+def open_choice(choice: BuiltInSite | SiteText | SiteBytes | dict[str, Any]) -> Site:
     """Return a built-in site, or the one in the request body.
 
     Raises:
         SiteError: The data is not a site.
     """
-    from fieldhand.site.loader import parse_site
+    from fieldhand.site.loader import site_of
 
-    if isinstance(choice, str):
-        return _built_in(choice)
-    if isinstance(choice, SiteText):
-        file = PurePath(choice.name)
-        return parse_site(choice.text.encode(), name=file.stem or "site", source=file.name or "site")
-    try:
-        data = json.dumps(choice).encode()
-    except RecursionError:
-        raise SiteError("the site is nested too deeply", where="site", advice="send plain GeoJSON") from None
-    return parse_site(data, name="site", source="site")
+    return _built_in(choice) if isinstance(choice, str) else site_of(_sent_files(choice))
+
+
+def _sent_files(choice: SiteText | SiteBytes | dict[str, Any]) -> SiteFiles:
+    """Return the file of a site in a request body.
+
+    Only the last part of its name is used, for the format and in messages; no file of that name is opened.
+    """
+    if isinstance(choice, dict):
+        try:
+            return SiteFiles(parts={"site.geojson": json.dumps(choice).encode()}, source="site")
+        except RecursionError:
+            raise SiteError("the site is nested too deeply", where="site", advice="send plain GeoJSON") from None
+    given = PurePath(PurePath(choice.name).name or "site.geojson")
+    stem, ending = (_NOT_IN_NAMES.sub("_", part) for part in (given.stem, given.suffix.lstrip(".")))
+    name = f"{stem[:_LONGEST_STEM] or 'site'}.{ending[:_LONGEST_ENDING] or 'geojson'}"
+    data = choice.text.encode() if isinstance(choice, SiteText) else choice.base64
+    return SiteFiles(parts={name: data}, source=given.name)
 
 
 @lru_cache(maxsize=len(BUILT_IN_SITES))

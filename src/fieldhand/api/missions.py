@@ -182,7 +182,7 @@ def _begin(body: MissionBody, by: str, planners: Planners, fleet: Fleet) -> dict
             earlier=records_of(body.earlier, site),
         )
         if not isinstance(outcome, Planned):
-            return unplanned_answer(outcome, site_and_robot)
+            return unplanned_answer(outcome, site_and_robot, open_language(body.lang))
         task, planner = outcome.task, outcome.planner
     else:
         task = with_logs(open_task(body.xml or "", robot)[0], body.earlier, site)

@@ -48,7 +48,7 @@ def _plan(body: PlanBody, planners: Planners) -> dict[str, Any]:
         earlier=records_of(body.earlier, site_and_robot.site),
     )
     if not isinstance(outcome, Planned):
-        return unplanned_answer(outcome, site_and_robot)
+        return unplanned_answer(outcome, site_and_robot, open_language(body.lang))
     document = encode(outcome.task)
     review = mission.review(outcome.task, site_and_robot.site, site_and_robot.robot, document=document)
     return {

@@ -35,7 +35,7 @@ from fieldhand.language import ENGLISH, Language, languages, open_language
 MEDIA_TYPE = "application/problem+json"
 
 #: Parts of a pydantic location that name the tried member of a union instead of a field.
-_CHOICES = ("SiteText", "dict[str,any]", "literal['demo','vineyard']")
+_CHOICES = ("SiteText", "SiteBytes", "dict[str,any]", "literal['demo','vineyard']")
 
 
 class VisibleAnswer(JSONResponse):

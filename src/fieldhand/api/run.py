@@ -23,6 +23,7 @@ from fieldhand.api.plan import Planners
 from fieldhand.api.work import Limits, Workers
 from fieldhand.approval.production import require_unsigned_allowed
 from fieldhand.compatibility import UTC
+from fieldhand.language import Language, open_language
 from fieldhand.mission.documents import SiteAndRobot
 from fieldhand.planning.planner import Planned
 from fieldhand.task.event_lines import to_json
@@ -65,7 +66,7 @@ def _run(body: RunBody, by: str, planners: Planners, limits: Limits) -> dict[str
             earlier=records_of(body.earlier, site_and_robot.site),
         )
         if not isinstance(outcome, Planned):
-            return unplanned_answer(outcome, site_and_robot)
+            return unplanned_answer(outcome, site_and_robot, open_language(body.lang))
         task = outcome.task
     else:
         task, _ = open_task(body.xml or "", site_and_robot.robot)
@@ -83,7 +84,7 @@ def _run(body: RunBody, by: str, planners: Planners, limits: Limits) -> dict[str
         seed=world.seed if body.seed is None else body.seed,
         interrupted=_deadline(limits.run_s),
     )
-    return _answer(run, site_and_robot)
+    return _answer(run, site_and_robot, open_language(body.lang))
 
 
 def _deadline(seconds: float) -> Callable[[], str | None]:
@@ -92,7 +93,7 @@ def _deadline(seconds: float) -> Callable[[], str | None]:
     return lambda: f"the simulation took longer than {seconds:g} s" if time.monotonic() > until else None
 
 
-def _answer(run: mission.Run, site_and_robot: SiteAndRobot) -> dict[str, Any]:
+def _answer(run: mission.Run, site_and_robot: SiteAndRobot, language: Language) -> dict[str, Any]:
     authorized, events, assessment = run.mission.authorized, run.events, run.assessment
     ended = next(event for event in reversed(events) if isinstance(event, Ended))
     tell = EventText(site_and_robot.robot).line
@@ -100,23 +101,29 @@ def _answer(run: mission.Run, site_and_robot: SiteAndRobot) -> dict[str, Any]:
         "outcome": "ran",
         "authorization": asdict(authorized.authorization),
         "status": ended.status,
-        "reason": ended.reason,
+        "reason": language.say(ended.reason),
         "travelled_m": ended.travelled_m,
         "seconds": ended.t,
         "charge_percent": ended.charge_percent,
         "success": assessment.success,
-        "exceeded": [asdict(one) for one in assessment.exceeded],
-        "goals": _goals(authorized.task, site_and_robot, assessment),
+        "exceeded": [asdict(language.read(one)) for one in assessment.exceeded],
+        "goals": _goals(authorized.task, site_and_robot, assessment, language),
         "events": [json.loads(to_json(event)) for event in events],
-        "told": [tell(event) or "" for event in events],
+        "told": [language.say(tell(event) or "") for event in events],
         "map": driven_map(events),
     }
 
 
-def _goals(task: Task, site_and_robot: SiteAndRobot, assessment: mission.Assessment) -> list[dict[str, Any]]:
+def _goals(
+    task: Task, site_and_robot: SiteAndRobot, assessment: mission.Assessment, language: Language
+) -> list[dict[str, Any]]:
     nodes = {goal.id: goal.node for goal in task.command.goals}
     name = goal_names(task, site_and_robot.robot)
     return [
-        {**asdict(outcome), "node": nodes.get(outcome.goal, ""), "name": name(outcome.goal)}
+        {
+            **asdict(language.read(outcome)),
+            "node": nodes.get(outcome.goal, ""),
+            "name": language.say(name(outcome.goal)),
+        }
         for outcome in assessment.outcomes
     ]

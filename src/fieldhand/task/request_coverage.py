@@ -46,10 +46,12 @@ class Piece:
         role: ``condition``, ``limit``, ``time``, ``end``, ``action``, ``place``, ``order`` (also numbers); ``no_part``
             for words that the planner marked as having no part in the plan; ``nothing`` for words missing from the
             plan; ``between`` for words and punctuation between the others.
+        nodes: Plan nodes that these words name, with the nodes that they contain; empty for words of the whole plan.
     """
 
     text: str
     role: WordRole
+    nodes: tuple[str, ...] = ()
 
 
 def request_pieces(task: Task) -> tuple[Piece, ...]:
@@ -63,9 +65,20 @@ def request_pieces(task: Task) -> tuple[Piece, ...]:
     at = 0
     for role, run in groupby(roles):
         length = len(list(run))
-        pieces.append(Piece(text=request[at : at + length], role=role))
+        nodes = () if role == "between" else _nodes_at(task, at, at + length)
+        pieces.append(Piece(text=request[at : at + length], role=role, nodes=nodes))
         at += length
     return tuple(pieces)
+
+
+def _nodes_at(task: Task, start: int, end: int) -> tuple[str, ...]:
+    """Return the plan nodes whose own words are in a range of the request, with the nodes that they contain."""
+    found: dict[str, None] = {}
+    for node in walk(task.composition.plan):
+        own = (*node.said, *node.at_said)
+        if any(first < end and start < last for first, last in own):
+            found.update(dict.fromkeys(inner.id for inner in walk(node)))
+    return tuple(found)
 
 
 def has_ranges(task: Task) -> bool:

@@ -66,7 +66,7 @@ def examples(
         yield " ".join(requests)
     yield from sorted(requests, key=len, reverse=True)[:2]
     things = [thing for part in parts for thing in part.things]
-    capture = _capture(robot.action[things[0].action] if things else robot.actions[0])
+    capture = capture_words(robot.action[things[0].action] if things else robot.actions[0])
     by_rank, by_name = list(_measured(site, noun)), list(_named(site, noun))
     properties = [*by_rank, *by_name] if measured else [*by_name, *by_rank]
     places = [part for part in parts if part.place is not None]
@@ -128,7 +128,7 @@ def _measured(site: Site, noun: str) -> Iterator[str]:
             yield f"the 10 {noun}s with the lowest {' '.join(name_words(name))}"
 
 
-def _capture(action: Action) -> str:
+def capture_words(action: Action) -> str:
     """Return how a request asks for an action, up to its place."""
     words = action.words or (action.name.replace("_", " "),)
     if action.name.startswith("take"):
