@@ -252,7 +252,7 @@ def test_robots_say_what_they_can_do_in_spanish(chromium: Browser, server: PageS
     with opened(chromium, server, login, path="/#/robots", locale="es-ES") as page:
         page.locator(".actions").first.wait_for()
         assert page.locator("html").get_attribute("lang") == "es"
-        assert page.get_by_role("link", name="Parcelas").is_visible()
+        assert page.get_by_role("link", name="Fincas").is_visible()
         checked(page)
         page.get_by_label("Idioma").select_option("en")
         page.get_by_role("link", name="Sites").wait_for()

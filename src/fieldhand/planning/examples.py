@@ -13,6 +13,8 @@ from fieldhand.site.model import Site
 
 #: Examples returned at most, and requests planned at most to find them.
 _MOST, _MOST_TRIES = 6, 14
+#: Imperatives of work that Spanish requests name.
+_SPANISH_WORK = {"mow": "Siega", "spray": "Pulveriza"}
 _NO_KINDS = frozenset({"id", "row", "block", "kind", "marker-symbol"})
 
 
@@ -46,9 +48,9 @@ def _english(site: Site, robot: RobotProfile) -> Iterator[str]:
     yield f"{capture} the four corner {noun}s, in any order."
     for action in _with_implement(robot):
         yield f"{(action.verbs or action.words or (action.name,))[0].capitalize()} between rows 2 and 4{inside}."
-    if pictures:
-        yield from (f"{capture_words(one)} the middle {noun}. If it is low, take 2 pictures of nearby {noun}s."
-                    for one in readings if one not in pictures)  # fmt: skip
+    for reading in readings:
+        if pictures and reading not in pictures:
+            yield f"{capture_words(reading)} the middle {noun}. If it is low, take 2 pictures of nearby {noun}s."
     yield f"{capture} every {noun} in row {_row(site)}{inside}."
     yield from (f"{capture} every {value} {noun}." for value in _texts(site)[:1])
     yield from (f"{capture} the 10 {noun}s with the lowest {words}." for words in _ranks(site)[:1])
@@ -60,20 +62,22 @@ def _english(site: Site, robot: RobotProfile) -> Iterator[str]:
 
 
 def _spanish(site: Site, robot: RobotProfile) -> Iterator[str]:
-    noun, many = ("vid", "vides") if "vine" in site.attributes.get("kind", ()) else ("árbol", "árboles")
-    the, every = ("las", "cada vid") if noun == "vid" else ("los", "cada árbol")
+    if "vine" in site.attributes.get("kind", ()):
+        the, every, many, middle, near, old = "las", "cada vid", "vides", "la vid", "cercanas", "viejas"
+    else:
+        the, every, many, middle, near, old = "los", "cada árbol", "árboles", "el árbol", "cercanos", "viejos"
     block = site.planting.blocks[0].name if len(site.planting.blocks) > 1 else ""
     inside = f" del bloque {block}" if block else ""
     can_read = {measured for action in robot.actions for measured in action.measures}
     yield f"Toma una foto de {the} cuatro {many} de las esquinas."
     for action in _with_implement(robot):
-        verb = {"mow": "Siega", "spray": "Pulveriza"}.get(action.name)
-        yield from (f"{verb} entre las filas 2 y 4{inside}.",) if verb else ()
+        if action.name in _SPANISH_WORK:
+            yield f"{_SPANISH_WORK[action.name]} entre las filas 2 y 4{inside}."
     if "co2" in can_read:
-        yield "Mide el CO2 en el árbol del medio. Si es bajo, toma 2 fotos de árboles cercanos."
+        yield f"Mide el CO2 en {middle} del medio. Si es bajo, toma 2 fotos de {many} {near}."
     yield f"Toma una foto de {every} de la fila {_row(site)}{inside}."
     yield from (f"Toma una foto de {the} 10 {many} con menor {words}." for words in _ranks(site)[:1])
-    yield f"Toma fotos de {the} 5 {many} más {'viejas' if noun == 'vid' else 'viejos'}."
+    yield f"Toma fotos de {the} 5 {many} más {old}."
     yield f"Fotografía tantos {many} como puedas en 300 metros."
     yield f"Fotografía {every} de la mitad norte."
 

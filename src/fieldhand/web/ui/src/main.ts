@@ -101,7 +101,8 @@ async function begin(): Promise<void> {
       "ask",
     );
     router.onchange = (name) => tabs.mark(name);
-    document.body.append(header(), tabs.root, banner, router.outlet);
+    const licences = el("footer", {}, el("a", { class: "back", href: "/static/third-party.txt" }, t("licences")));
+    document.body.append(header(), tabs.root, banner, router.outlet, licences);
     router.begin();
   }
   // What was opened without the server does not know yet who this is, and what the server offers.

@@ -49,6 +49,7 @@ export const en = {
   keep_out: "Keep out",
   language: "Language",
   legend: "Signs on the map",
+  licences: "Licences",
   log_in: "Log in",
   log_out: "Log out",
   login_hint: "No account yet? Whoever runs this server adds one, or opens the link that it printed when it started.",

@@ -1,6 +1,7 @@
 // The page's one stream of events: what it follows changes with what is shown, and a heartbeat says that the server is there.
 
 import { current } from "../lang";
+import { get } from "./api";
 import type { Heard } from "./types";
 
 type Listener = (message: Heard) => void;
@@ -43,9 +44,11 @@ class EventStream {
         for (const listener of this.listeners) listener({ kind, data } as Heard);
       });
     }
-    // The browser connects again by itself, unless the server refused.
+    // The browser connects again by itself, unless the server refused: then it may be the session that has ended.
     source.addEventListener("error", () => {
-      if (source.readyState === EventSource.CLOSED && source === this.source) setTimeout(() => source === this.source && this.open(), AGAIN_MS);
+      if (source.readyState !== EventSource.CLOSED || source !== this.source) return;
+      void get("/session").catch(() => undefined);
+      setTimeout(() => source === this.source && this.open(), AGAIN_MS);
     });
   }
 }

@@ -36,7 +36,7 @@ export class MissionsPage implements Page {
   private stop: (() => void) | null = null;
 
   show(id: string): void {
-    this.hide();
+    this.leave();
     if (id) {
       this.view = new MissionView(id);
       replace(this.root, this.view.root);
@@ -54,10 +54,14 @@ export class MissionsPage implements Page {
   }
 
   hide(): void {
+    this.leave();
+    stream.follow([]);
+  }
+
+  private leave(): void {
     this.view?.close();
     this.stop?.();
     this.view = this.stop = null;
-    stream.follow([]);
   }
 
   private async load(): Promise<void> {

@@ -1,7 +1,7 @@
 // Sites: the server's, and files of one's own; what was understood of their rows.
 
 import { t, tn } from "../lang";
-import { el, field, notice, replace, sentence, type Child } from "../lib/dom";
+import { el, field, notice, replace, sentence, visible, type Child } from "../lib/dom";
 import { number, spaced } from "../lib/figures";
 import { problemNotice } from "../lib/problems";
 import { go, type Page } from "../lib/router";
@@ -45,7 +45,7 @@ export class SitesPage implements Page {
       replace(
         this.list,
         ...sites.map(({ id, title, trees, file }) =>
-          el("li", {}, el("button", { type: "button", class: "row", "aria-current": id === this.open ? "true" : false, onclick: () => go(`sites/${encodeURIComponent(id)}`) }, el("strong", {}, title), el("span", { class: "hint" }, [t("plants", { count: number(trees) }), file].filter(Boolean).join(", ")))),
+          el("li", {}, el("button", { type: "button", class: "row", "aria-current": id === this.open ? "true" : false, onclick: () => go(`sites/${encodeURIComponent(id)}`) }, el("strong", {}, title), el("span", { class: "hint" }, [t("plants", { count: number(trees) }), visible(file)].filter(Boolean).join(", ")))),
         ),
       );
       const site = await describe(this.open);
@@ -56,7 +56,7 @@ export class SitesPage implements Page {
   }
 
   private async add(file: File): Promise<void> {
-    replace(this.place, notice("info", t("reading_file", { name: file.name })));
+    replace(this.place, notice("info", t("reading_file", { name: visible(file.name) })));
     try {
       const { id } = await add(file);
       replace(this.place);
