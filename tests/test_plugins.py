@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from typing import NoReturn
 
 import pytest
 
@@ -68,6 +69,48 @@ def test_whatever_fails_the_error_names_plugin_and_distribution(
     assert "fieldhand.planners: acme" in said
     assert "uninstall acme-plan" in said
     assert isinstance(raised.value, InputError)
+
+
+def test_entries_that_the_library_refuses_are_listed(installed: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Some releases raise for a whole environment as soon as one entry in it is invalid."""
+
+    def refused(distribution: object) -> NoReturn:
+        raise ValueError("Invalid object reference")
+
+    install(installed, "acme-plan", "# a comment\n\nacme = acme broken!\nno value\nother=acme:other [extra]")
+    install(installed, "another", "")
+    (installed / "another-2.5.dist-info" / "entry_points.txt").write_text("[console_scripts]\nx = 1 2 3\n")
+    for name in ("importlib.metadata", "importlib_metadata"):
+        if name in sys.modules:
+            monkeypatch.setattr(sys.modules[name].Distribution, "entry_points", property(refused))
+    listed = [p for p in list_plugins("fieldhand.planners") if p.distribution == "acme-plan"]
+    assert [(p.name, p.value) for p in listed] == [
+        ("acme", "acme broken!"),
+        ("no value", ""),
+        ("other", "acme:other [extra]"),
+    ]
+    for plugin in listed[:2]:
+        with pytest.raises(PluginError, match="not of the form module:attribute"):
+            plugin.load()
+
+
+def test_of_several_versions_the_one_that_is_imported_is_listed(
+    installed: Path, tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    newer = tmp_path_factory.mktemp("newer")
+    install(installed, "acme-plan", "acme = acme:make\ngone = acme:gone")
+    install(newer, "acme-plan", "acme = acme:make_better")
+    monkeypatch.syspath_prepend(newer)
+    listed = [p for p in list_plugins("fieldhand.planners") if p.distribution == "acme-plan"]
+    assert [(p.name, p.value) for p in listed] == [("acme", "acme:make_better")]
+
+
+def test_a_distribution_without_metadata_is_called_unknown(installed: Path) -> None:
+    install(installed, "acme-plan", "acme = acme:make")
+    (installed / "acme_plan-2.5.dist-info" / "METADATA").unlink()
+    plugin = active("fieldhand.planners")["acme"]
+    assert (plugin.distribution, plugin.version) == ("", "")
+    assert "an unknown distribution" in str(plugin.error("cannot be loaded"))
 
 
 def test_of_one_name_the_first_distribution_is_used_and_the_others_are_listed(installed: Path) -> None:

@@ -14,12 +14,15 @@ names it.
 from __future__ import annotations
 
 import sys
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any, Final, Literal, get_args
+from typing import TYPE_CHECKING, Final, Literal, get_args
 
 from fieldhand.errors import PluginError
+
+if TYPE_CHECKING:
+    from importlib.metadata import Distribution
 
 __all__ = ["DISTRIBUTION", "GROUPS", "Group", "Plugin", "active", "list_plugins"]
 
@@ -38,6 +41,7 @@ GROUPS: Final[tuple[Group, ...]] = get_args(Group)
 DISTRIBUTION: Final = "fieldhand"
 
 _UNKNOWN: Final = "an unknown distribution"
+_ENTRY_POINTS: Final = "entry_points.txt"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,7 +85,7 @@ class Plugin:
         try:
             return EntryPoint(name=self.name, value=self.value, group=self.group).load()
         except (Exception, SystemExit) as error:  # a plugin's import may raise anything
-            if isinstance(error, AttributeError) and not EntryPoint.pattern.match(self.value):
+            if not EntryPoint.pattern.match(self.value):
                 reason = f"'{self.value}' is not of the form module:attribute"
             else:
                 reason = f"{type(error).__name__}: {error}".rstrip(": ")
@@ -110,16 +114,7 @@ def list_plugins(group: Group, *, built_in: Collection[str] = ()) -> tuple[Plugi
         group: Kind of extension.
         built_in: Names that this package provides without an entry point; no plugin overrides them.
     """
-    registered = [
-        Plugin(
-            group=group,
-            name=entry.name,
-            value=entry.value,
-            distribution=entry.dist.name if entry.dist else "",
-            version=entry.dist.version if entry.dist else "",
-        )
-        for entry in _entry_points(tuple(sys.path)).select(group=group)
-    ]
+    registered = [plugin for plugin in _registered(tuple(sys.path)) if plugin.group == group]
     registered.sort(key=lambda p: (p.name, p.distribution != DISTRIBUTION, p.distribution, p.value))
     owners = dict.fromkeys(built_in, DISTRIBUTION)
     plugins: list[Plugin] = []
@@ -134,11 +129,45 @@ def list_plugins(group: Group, *, built_in: Collection[str] = ()) -> tuple[Plugi
 
 
 @lru_cache(maxsize=4)
-def _entry_points(path: tuple[str, ...]) -> Any:  # noqa: ARG001  another path has other distributions
-    """Return the entry points of all distributions, searched once per path."""
-    from importlib.metadata import entry_points  # slow to import, and most commands need no plugin
+def _registered(path: tuple[str, ...]) -> tuple[Plugin, ...]:  # noqa: ARG001  another path has other distributions
+    """Return the plugins of all distributions in no particular order, searched once per path.
 
-    return entry_points()
+    The files are parsed here: ``entry_points()`` raises where one entry of any distribution is invalid, depending on
+    the release of Python and on whether the package importlib-metadata was imported, which replaces parts of it.
+    """
+    from importlib.metadata import distribution, distributions  # slow to import, and most commands need no plugin
+
+    plugins: dict[Plugin, None] = {}
+    for candidate in distributions():
+        if "[fieldhand." in (candidate.read_text(_ENTRY_POINTS) or ""):
+            name, _ = _name_and_version(candidate)
+            # Of several versions on the path, only the one that Python imports counts.
+            plugins |= dict.fromkeys(_parse(distribution(name) if name else candidate))
+    return tuple(plugins)
+
+
+def _parse(distribution: Distribution) -> Iterator[Plugin]:
+    """Yield the plugins that a distribution registers, with their values as written."""
+    name, version = _name_and_version(distribution)
+    groups: dict[str, Group] = {group: group for group in GROUPS}
+    group: Group | None = None
+    for line in map(str.strip, (distribution.read_text(_ENTRY_POINTS) or "").splitlines()):
+        if line.startswith("[") and line.endswith("]"):
+            group = groups.get(line[1:-1])
+        elif group is not None and line and not line.startswith("#"):
+            key, _, value = line.partition("=")
+            yield Plugin(group=group, name=key.strip(), value=value.strip(), distribution=name, version=version)
+
+
+def _name_and_version(distribution: Distribution) -> tuple[str, str]:
+    """Return name and version of a distribution; empty where its metadata is missing."""
+    try:
+        metadata = distribution.metadata
+    except FileNotFoundError:  # raised by newer releases of importlib-metadata
+        return "", ""
+    # The type of the metadata has no get() in Python 3.10.
+    name, version = (metadata[field] if field in metadata else "" for field in ("Name", "Version"))  # noqa: SIM401
+    return name, version
 
 
 def active(group: Group, *, built_in: Collection[str] = ()) -> dict[str, Plugin]:

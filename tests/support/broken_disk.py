@@ -19,6 +19,7 @@ import errno
 import functools
 import io
 import os
+import pathlib
 import sqlite3
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -325,6 +326,11 @@ def _break_python(disk: Disk, patch: pytest.MonkeyPatch) -> None:
     ):
         patch.setattr(os, name, mine)
     patch.setattr(io, "open", file_opened)
+    accessor = getattr(pathlib, "_NormalAccessor", None)
+    if accessor is not None:  # paths of Python 3.10 keep the functions that they were defined with
+        patch.setattr(accessor, "open", staticmethod(file_opened))
+        for name in ("replace", "unlink", "mkdir"):
+            patch.setattr(accessor, name, staticmethod(getattr(os, name)))
 
 
 @contextmanager

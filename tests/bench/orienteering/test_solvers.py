@@ -90,7 +90,10 @@ def test_greedy_goes_where_the_reward_for_the_way_is_greatest():
 
 def test_without_chance_the_search_finds_what_pyvrp_finds():
     pytest.importorskip("pyvrp")
-    ours, other = compare(problem(15, 4, budget=2.0), 0, 0.4)
+    for seconds in (0.4, 4.0, 40.0):  # releases for Python 3.10 need more iterations to find any route
+        ours, other = compare(problem(15, 4, budget=2.0), 0, seconds)
+        if other.reward:
+            break
     assert ours.reward >= 0.99 * other.reward > 0.0
     assert max(ours.length, other.length) <= 2.0 + 1e-6
 

@@ -104,6 +104,16 @@ def test_an_http_status_is_explained_and_resent_only_if_it_may_pass(status: int,
     assert waits == [0.5, 1.0][: sent - 1]
 
 
+@pytest.mark.parametrize("provider", ["openai-compatible", "openai", "anthropic", "google"])
+@pytest.mark.parametrize("answer", [ScriptedAnswer(status=503), ScriptedAnswer(hang_up=True)], ids=["503", "hangs up"])
+def test_the_client_of_no_provider_repeats_a_request_itself(provider: Provider, answer: ScriptedAnswer) -> None:
+    with ScriptedEndpoint([answer], repeat_last=True) as endpoint:
+        settings = endpoint.settings(provider=provider)
+        with pytest.raises(ModelError, match="tried 3 times"):
+            ModelChat(settings, sleep=lambda _: None).ask(TALK)
+    assert len(endpoint.requests) == settings.resends + 1 == 3
+
+
 def test_a_fault_that_passes_is_not_noticed() -> None:
     with ScriptedEndpoint([ScriptedAnswer(status=503), ScriptedAnswer(hang_up=True), "at last"]) as endpoint:
         assert ModelChat(endpoint.settings(), sleep=lambda _: None).ask(TALK).text == "at last"

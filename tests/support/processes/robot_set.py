@@ -64,11 +64,25 @@ def absent() -> frozenset[str]:
     """Return the top-level modules of installed distributions that the smallest set lacks."""
     present = {"fieldhand"}
     _installed(requirements()[0], present)
-    return frozenset(
-        module
-        for module, distributions in importlib.metadata.packages_distributions().items()
-        if module.isidentifier() and not present & {_folded(name) for name in distributions}
-    )
+    owners: dict[str, set[str]] = {}
+    for distribution in importlib.metadata.distributions():
+        for module in _modules(distribution):
+            owners.setdefault(module, set()).add(_folded(distribution.metadata["Name"]))
+    return frozenset(module for module, names in owners.items() if module.isidentifier() and not present & names)
+
+
+def _modules(distribution: importlib.metadata.Distribution) -> set[str]:
+    """Return the top-level modules of a distribution.
+
+    ``packages_distributions()`` of Python 3.10 omits distributions without ``top_level.txt``, which is most of them.
+    """
+    modules = set((distribution.read_text("top_level.txt") or "").split())
+    for file in distribution.files or ():
+        if len(file.parts) > 1:
+            modules.add(file.parts[0])
+        elif file.suffix in (".py", ".so"):
+            modules.add(file.name.partition(".")[0])
+    return modules
 
 
 def fieldhand_on_robot(*words: str, cwd: Path, config: Path) -> Run:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
@@ -72,13 +73,19 @@ def _pyvrp(problem: Problem, seed: int, seconds: float) -> RouteResult:
     # Rounded up, so that no route keeps to the budget merely because of rounding.
     lengths = np.ceil(problem.distances / budget * _LENGTHS).astype(np.int64)
     prizes = np.round(problem.rewards / max(problem.rewards.sum(), 1e-300) * _PRIZES).astype(np.int64)
-    model = Model()
+    model: Any = Model()  # its types differ between releases
     inner = [v for v in range(problem.size) if v not in (problem.start, problem.end)]
+    ends = dict.fromkeys((problem.start, problem.end))
     # The distance of every leg is given, so the coordinates are not used.
-    places = [model.add_location(x=v, y=0) for v in range(problem.size)]
-    depots = {v: model.add_depot(places[v]) for v in dict.fromkeys((problem.start, problem.end))}
-    for v in inner:
-        model.add_client(places[v], prize=int(prizes[v]), required=False)
+    if hasattr(model, "add_location"):
+        places = [model.add_location(x=v, y=0) for v in range(problem.size)]
+        depots = {v: model.add_depot(places[v]) for v in ends}
+        for v in inner:
+            model.add_client(places[v], prize=int(prizes[v]), required=False)
+    else:  # before PyVRP 0.14 (Python 3.10 has 0.11) depots and clients are locations themselves
+        depots = {v: model.add_depot(x=v, y=0) for v in ends}
+        clients = {v: model.add_client(x=v, y=0, prize=int(prizes[v]), required=False) for v in inner}
+        places = [(depots | clients)[v] for v in range(problem.size)]
     model.add_vehicle_type(start_depot=depots[problem.start], end_depot=depots[problem.end], max_distance=_LENGTHS)
     for a in range(problem.size):
         for b in range(problem.size):
@@ -87,7 +94,12 @@ def _pyvrp(problem: Problem, seed: int, seconds: float) -> RouteResult:
     result = model.solve(stop=MaxRuntime(seconds), seed=seed, display=False)
     took = time.perf_counter() - began
     routes = result.best.routes() if result.is_feasible() else []
-    stops = [inner[activity.idx] for route in routes for activity in route if activity.is_client()]
+    stops: list[int] = []
+    for activity in (activity for route in routes for activity in route):
+        if isinstance(activity, int):  # before PyVRP 0.14: a location, of which the depots are the first
+            stops.append(inner[activity - len(depots)])
+        elif activity.is_client():
+            stops.append(inner[activity.idx])
     way = [problem.start, *stops, problem.end]
     return RouteResult(
         solver="PyVRP",

@@ -176,7 +176,7 @@ def _body(path: str, asked: Mapping[str, Any], answer: ScriptedAnswer) -> bytes:
     body: dict[str, Any]
     if answer.status >= 400:
         body = {"error": {"message": answer.text, "type": "scripted_error", "code": answer.status}}
-    elif path.endswith("/messages"):
+    elif path.partition("?")[0].endswith("/messages"):
         body = {
             "id": "msg_scripted",
             "type": "message",

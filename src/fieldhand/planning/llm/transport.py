@@ -81,18 +81,25 @@ def require_key(settings: LlmSettings) -> None:
 
 
 def build_model(settings: LlmSettings) -> Model[Any]:
-    """Return the pydantic-ai model; only the packages of its provider are imported."""
+    """Return the pydantic-ai model, whose client sends each request once.
+
+    Only the packages of its provider are imported.
+    """
     url, key = settings.base_url or None, settings.api_key
     match settings.provider:
         case "anthropic":
             from pydantic_ai.models.anthropic import AnthropicModel
             from pydantic_ai.providers.anthropic import AnthropicProvider
 
-            return AnthropicModel(settings.model, provider=AnthropicProvider(api_key=key, base_url=url))
+            anthropic = AnthropicProvider(api_key=key, base_url=url)
+            # Set on the client, because releases of pydantic-ai for Python 3.10 have no such setting.
+            anthropic.client.max_retries = 0
+            return AnthropicModel(settings.model, provider=anthropic)
         case "google":
             from pydantic_ai.models.google import GoogleModel
             from pydantic_ai.providers.google import GoogleProvider
 
+            # Google's client repeats requests only if it is told to.
             return GoogleModel(settings.model, provider=GoogleProvider(api_key=key, base_url=url))
         case "openai" | "openai-compatible":
             from pydantic_ai.models.openai import OpenAIChatModel
@@ -100,8 +107,9 @@ def build_model(settings: LlmSettings) -> Model[Any]:
 
             # The header is required even by endpoints without keys: without a value the client would send
             # OPENAI_API_KEY from the environment.
-            provider = OpenAIProvider(base_url=url, api_key=key or "no-key")
-            return OpenAIChatModel(settings.model, provider=provider)
+            openai = OpenAIProvider(base_url=url, api_key=key or "no-key")
+            openai.client.max_retries = 0
+            return OpenAIChatModel(settings.model, provider=openai)
 
 
 async def _request(settings: LlmSettings, messages: Sequence[ChatMessage]) -> ModelResponse:
@@ -109,7 +117,7 @@ async def _request(settings: LlmSettings, messages: Sequence[ChatMessage]) -> Mo
     from pydantic_ai.direct import model_request
     from pydantic_ai.settings import ModelSettings
 
-    wanted = ModelSettings(temperature=settings.temperature, timeout=settings.timeout_s, max_retries=0)
+    wanted = ModelSettings(temperature=settings.temperature, timeout=settings.timeout_s)
     if settings.max_tokens is not None:
         wanted["max_tokens"] = settings.max_tokens
     # The client's own timeout restarts with every byte, so a slowly trickling endpoint would never reach it.
@@ -159,16 +167,14 @@ def _run(request: Coroutine[Any, Any, ModelResponse]) -> ModelResponse:
 
 def _wait_s(error: Exception, attempt: int) -> float | None:
     """Return the seconds to wait before a retry, or None if a retry is pointless."""
-    from pydantic_ai.exceptions import ModelAPIError, ModelHTTPError
+    from pydantic_ai.exceptions import ModelHTTPError
 
     backoff = 0.5 * 2.0**attempt
     if isinstance(error, ModelHTTPError):
         if error.status_code not in MAY_PASS:
             return None
         return min(LONGEST_WAIT_S, max(backoff, getattr(error, "retry_after", None) or 0.0))
-    if isinstance(error, ModelAPIError) and not _timed_out(error) and _unconnected(error):
-        return backoff
-    return None
+    return backoff if not _timed_out(error) and _unconnected(error) else None
 
 
 def explain(error: Exception, settings: LlmSettings, *, attempts: int) -> NoReturn:
@@ -177,7 +183,7 @@ def explain(error: Exception, settings: LlmSettings, *, attempts: int) -> NoRetu
     Raises:
         ModelError: Always.
     """
-    from pydantic_ai.exceptions import AgentRunError, ModelHTTPError
+    from pydantic_ai.exceptions import ModelHTTPError
 
     def fail(what: str, advice: str) -> NoReturn:
         times = f" (tried {attempts} times)" if attempts > 1 else ""
@@ -194,7 +200,7 @@ def explain(error: Exception, settings: LlmSettings, *, attempts: int) -> NoRetu
         fail(*_about_status(error.status_code, _body_text(error.body), settings))
     if isinstance(error, ImportError):
         fail(f"a package for {settings.provider} is not installed", 'install it with: pip install "fieldhand[llm]"')
-    if isinstance(error, AgentRunError) and _unconnected(error):
+    if _unconnected(error):
         why = next((str(e) for e in reversed(_causes(error)) if str(e)), "no reason given")
         fail(
             f"the endpoint cannot be reached ({_cut(why)})",
@@ -252,7 +258,10 @@ def _timed_out(error: BaseException) -> bool:
 
 
 def _unconnected(error: BaseException) -> bool:
-    """Return True if the connection failed or broke, judged by class names, as clients share no base class."""
+    """Return True if the connection failed or broke.
+
+    Judged by class names, as clients share no base class, and pydantic-ai does not wrap the errors of all of them.
+    """
     names = {type(e).__name__ for e in _causes(error)}
     signs = (
         "ConnectError",
