@@ -31,6 +31,11 @@ PLANNED = [
      "for Corners(of InZone(hot bay)): [co2]; co2 @ PointsIn(hot bay)"),
     (VINEYARD, HUSKY, "Photograph the corners of the south block and then the middle vine.",
      "for Corners(of InBlock(South)): [picture]; picture @ Middle(of InBlock(South))"),
+    (VINEYARD, HUSKY, "Photograph the first vine of row 3 of the north block and the middle one.",
+     "for UnionOf(InRow(1, 1, of Rows(3, 3, of InBlock(North)))+Middle(of Rows(3, 3, of InBlock(North)))): [picture]"),
+    (ORCHARD, HUSKY, "Photograph the north-west corner tree, then the middle tree.",
+     "picture @ Corners(nw); picture @ Middle"),
+    (ORCHARD, HUSKY, "Photograph the four corners and the middle tree.", "for UnionOf(Corners+Middle): [picture]"),
     # So are an end and the other half.
     (GARDEN, AMIGA, "Read the soil moisture at the north end of the rose bed and at the south end.",
      "moisture @ Transect(1, edge, rose bed, north); moisture @ Transect(1, edge, rose bed, south)"),
@@ -92,6 +97,7 @@ ASKED = [
     (GARDEN, AMIGA, "Take a picture in the middle of the rose bed. Then read the soil moisture at the corners.", 2),
     (GLASSHOUSE, HUSKY, "CO2 at the west end of rows 1 and 2, and in the middle.", 2),
     (PASTURE, TRACTOR, "Mow the bank, then go to the east side.", 2),
+    (GARDEN, AMIGA, "Photograph one plant at the north end of bed 3 and two at the south end.", 2),
 ]
 
 REFUSED = [

@@ -60,7 +60,8 @@ def _meant(
     """
     if setting.names("site", place.tokens or used):
         return place
-    place = replace(place, selector=_of_earlier_member(setting, place.selector))
+    tree = setting.names("TREE", place.tokens or used) or setting.names("ONE", place.tokens or used)
+    place = replace(place, selector=_of_earlier_member(setting, place.selector, tree=tree))
     part = part_within(place.selector)
     if part is None or not free:
         return place
@@ -73,7 +74,9 @@ def _meant(
     if last is None or len(grounds) != 1:
         return place
     (ground,) = grounds
-    ways = _of_ground(setting, place, part, ground, setting.names("TREE", place.tokens or used))
+    if not all(isinstance(area, AREAS) for area in ground.members):
+        return place
+    ways = _of_ground(setting, place, part, ground, tree)
     contrasts = side_named(part) and any(side_named(one) for one in last.walk())
     bare = bare_zone(ground, setting.site)
     if not ways or (side_named(part) and not contrasts and not bare):
@@ -83,13 +86,14 @@ def _meant(
     return setting.either("of that area, or of the site?", used, ways if sure else [*ways, place])
 
 
-def _of_earlier_member(setting: Setting, places: s.Selector) -> s.Selector:
+def _of_earlier_member(setting: Setting, places: s.Selector, *, tree: bool) -> s.Selector:
     """Return places of which one is named as a part of one before it: "on the north side of the pond and the south"."""
     made: list[s.Selector] = []
     for one in places.members:
         part = part_within(one)
-        zones = {ground for known in made for ground in _grounds(known) if bare_zone(ground, setting.site)}
-        there = part_of_ground(one, part, zones.pop(), setting.site) if part is not None and len(zones) == 1 else None
+        grounds = {ground for known in made for ground in _grounds(known) if isinstance(ground, AREAS)}
+        fits = part is not None and len(grounds) == 1 and (bare_zone(*grounds, setting.site) or not side_named(part))
+        there = part_of_ground(one, part, grounds.pop(), setting.site, tree=tree) if part is not None and fits else None
         made.append(there or one)
     return s.UnionOf(parts=tuple(made)) if len(made) > 1 else places
 
