@@ -74,7 +74,8 @@ def _meant(
     if last is None or len(grounds) != 1:
         return place
     (ground,) = grounds
-    if not all(isinstance(area, AREAS) for area in ground.members):
+    of_site = any(side_named(area) and getattr(area, "of", s.Trees()) == s.Trees() for area in ground.members)
+    if not all(isinstance(area, AREAS) for area in ground.members) or (side_named(part) and of_site):
         return place
     ways = _of_ground(setting, place, part, ground, tree)
     contrasts = side_named(part) and any(side_named(one) for one in last.walk())
@@ -108,7 +109,8 @@ def _is_part_of_area(places: s.Selector, setting: Setting) -> bool:
 
 
 def _last_places(state: DialogueState) -> s.Selector | None:
-    nodes = [node for node in p.walk(state.plan) if node.selector is not None]
+    only_driven = [node for node in p.walk(state.plan) if node.work is not None and not node.work.action]
+    nodes = [node for node in p.walk(state.plan) if node.selector is not None and node not in only_driven]
     return nodes[-1].selector if nodes else None
 
 

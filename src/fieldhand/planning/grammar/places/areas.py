@@ -255,7 +255,7 @@ def part_of(part: s.Selector, whole: s.Selector, site: Site) -> s.Selector | Non
     named = compass_part(part)
     if named is not None and named[1] == s.Trees() and is_bare(whole, site):
         return swapped(part, s.Trees(), whole)
-    if are_zones(whole) and _is_side(part):
+    if are_zones(whole) and _is_side(part) and all(ids_of(zone, site) for zone in whole.members):
         return s.UnionOf(parts=sides) if len(sides := side_of_zones(part, whole)) > 1 else sides[0]
     return over(part, whole) if chooses_from_trees(part) and _is_larger(whole, part) else None
 
