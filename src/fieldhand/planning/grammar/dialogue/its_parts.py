@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.state import DialogueState, Setting
-from fieldhand.planning.grammar.meaning import PlaceMeaning
+from fieldhand.planning.grammar.meaning import PlaceMeaning, WorkCommand
 from fieldhand.planning.grammar.places.sampling import bare_zone, is_keep_out
 from fieldhand.planning.grammar.places.zone_parts import part_of_ground, part_within, side_named
 from fieldhand.planning.selections import AREAS, are_rows, as_corners, as_in_row, as_zone, is_one_row
@@ -29,14 +29,14 @@ def with_its_parts(setting: Setting, state: DialogueState, command: T, *, same_s
         same_sentence: True if it stands in the sentence of the last one.
     """
     one: Any = command
-    place, along = getattr(one, "place", None), getattr(one, "along", None)
+    place = getattr(one, "place", None)
     pending = state.lead or state.area or getattr(one, "within", None) or state.each_of
     changed: T = command
     if isinstance(place, PlaceMeaning) and place.per is None:
         meant = _meant(setting, state, place, one.used, same_sentence=same_sentence, free=pending is None)
         changed = command if meant == place else replace(one, place=meant)
-    elif isinstance(along, s.Selector) and pending is None:
-        ground = PlaceMeaning(along, "area")
+    elif isinstance(one, WorkCommand) and one.along is not None and pending is None:
+        ground = PlaceMeaning(one.along, "area")
         meant = _meant(setting, state, ground, one.used, same_sentence=same_sentence, free=True)
         if getattr(meant.selector, "shape", "") == "edge":  # "film the north side of the pond, then the east side"
             edge: Any = meant.selector
