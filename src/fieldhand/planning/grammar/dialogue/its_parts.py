@@ -93,8 +93,10 @@ def _of_earlier_member(setting: Setting, places: s.Selector, *, tree: bool) -> s
     for one in places.members:
         part = part_within(one)
         grounds = {ground for known in made for ground in _grounds(known) if isinstance(ground, AREAS)}
-        fits = part is not None and len(grounds) == 1 and (bare_zone(*grounds, setting.site) or not side_named(part))
-        there = part_of_ground(one, part, grounds.pop(), setting.site, tree=tree) if part is not None and fits else None
+        ground = next(iter(grounds)) if len(grounds) == 1 else None
+        there = None
+        if part is not None and ground is not None and (bare_zone(ground, setting.site) or not side_named(part)):
+            there = part_of_ground(one, part, ground, setting.site, tree=tree)
         made.append(there or one)
     return s.UnionOf(parts=tuple(made)) if len(made) > 1 else places
 

@@ -153,8 +153,11 @@ def parts_of_area(parts: AreaParts, area: s.Selector, site: Site) -> PlaceMeanin
         return None
     made: list[s.Selector] = []
     for part in parts:
-        place = on_sides(part, site, area) if isinstance(part, Sides) else None
-        found = part_of_ground(part, part, area, site) if not isinstance(part, Sides) else place and place.selector
+        if isinstance(part, Sides):
+            place = on_sides(part, site, area)
+            found = None if place is None else place.selector
+        else:
+            found = part_of_ground(part, part, area, site)
         if found is None:
             return None
         made += found.members
