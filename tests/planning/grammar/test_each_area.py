@@ -92,11 +92,11 @@ PLANNED = [
         TRACTOR,
         "Read the soil moisture at both ends and in the middle of every row in the mild bay.",
         (
-            "for UnionOf(InRow(1, 1, of InZone(mild bay, of Rows(4, 4, of InBlock(mild bay))))+InRow(-1, -1,"
-            " of InZone(mild bay, of Rows(4, 4, of InBlock(mild bay))))+Middle(of InZone(mild bay, of "
-            "Rows(4, 4, of InBlock(mild bay))))+InRow(1, 1, of InZone(mild bay, of Rows(3, 3, of "
-            "InBlock(mild bay))))+InRow(-1, -1, of InZone(mild bay, of Rows(3, 3, of InBlock(mild "
-            "bay))))+Middle(of InZone(mild bay, of Rows(3, 3, of InBlock(mild bay))))): [moisture]"
+            "for UnionOf(InRow(1, 1, of Rows(4, 4, of InBlock(mild bay, of InZone(mild bay))))+InRow(-1, -1,"
+            " of Rows(4, 4, of InBlock(mild bay, of InZone(mild bay))))+Middle(of Rows(4, 4, of InBlock(mild bay,"
+            " of InZone(mild bay))))+InRow(1, 1, of Rows(3, 3, of InBlock(mild bay, of InZone(mild bay))))"
+            "+InRow(-1, -1, of Rows(3, 3, of InBlock(mild bay, of InZone(mild bay))))+Middle(of Rows(3, 3,"
+            " of InBlock(mild bay, of InZone(mild bay))))): [moisture]"
         ),
     ),
     (

@@ -384,12 +384,14 @@ class Lead:
         used: Tokens of the phrase.
         relation: Word that ties the place to what is done there; ``topic`` if it is what the next sentences are about.
         things: Captures that the next command can refer to, if the phrase names them.
+        begins: True if the work begins there ("starting with row 1").
     """
 
     place: PlaceMeaning
     used: int
     relation: str = "at"
     things: tuple[Thing, ...] = ()
+    begins: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -428,12 +430,16 @@ class StopCommand:
 
 @dataclass(frozen=True, slots=True)
 class LimitClause:
-    """A limit on distance, time or battery; with ``keep`` the amount that must be left, with ``back`` on the return."""
+    """A limit on distance, time or battery; with ``keep`` the amount that must be left, with ``back`` on the return.
+
+    With ``later`` it may be when the work begins as well ("in two hours").
+    """
 
     amount: Amount
     keep: bool
     used: int
     back: bool = False
+    later: bool = False
 
 
 #: Quantity of a test of the battery's charge.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
@@ -179,7 +179,7 @@ def _read_words(
     words = remarks.words
     edges = [*edges_of(words, phrases), *(topic_edge(words, k) for k in remarks.topics)]
     chart = _parsed(language.grammar(), words, edges, phrases, site, robot)
-    setting = Setting(robot, site, lambda used: spans(words, used), request)
+    setting = Setting(robot, site, lambda used: spans(words, used), request, names=_naming(chart))
     found: list[RequestReading] = []
     faults: list[NotComposed] = []
     sides = [(words[one.start].start, words[one.end - 1].end) for one in chart.of_category("DIR")]
@@ -214,6 +214,15 @@ def _read_words(
         chart = _parsed(_with_impossible(language), words, edges, phrases, site, robot)
         unread = unread_reasons(request, words, edges, chart, faults, site, robot)
     return ReadRequest(readings=found, faults=faults, unread=unread)
+
+
+def _naming(chart: Chart) -> Callable[[str, int], bool]:
+    """Return the function that tells whether some tokens contain a phrase of a category."""
+
+    def names(category: str, used: int) -> bool:
+        return any(edge.used & ~used == 0 for edge in chart.of_category(category))
+
+    return names
 
 
 def _parsed(

@@ -10,7 +10,7 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.working import Tract
 from fieldhand.planning.grammar.meaning import PlaceMeaning, WorkCommand
-from fieldhand.planning.grammar.places.counted import row_itself
+from fieldhand.planning.grammar.places.counted import Positions, row_itself
 from fieldhand.planning.grammar.places.numbered import all_of, ids_of
 from fieldhand.planning.grammar.places.numbers import name_of
 from fieldhand.planning.grammar.places.planted_rows import filled_rows, rows_out_of
@@ -31,24 +31,28 @@ Aisle = tuple[Row, Row]
 # --- the rows between which aisles lie --------------------------------------------------------------------------------
 
 
-@construction(
-    "gaps: BETWEEN [ROW] first=row_name AND [ROW] last=row_name",
-    "gaps: FROM ROW first=row_name range_to [ROW] last=row_name", cost=0.0,
-)  # fmt: skip
+@construction("gaps: gaps=between_gaps", cost=0.0)
+def gaps(gaps: s.Selector) -> s.Selector:
+    """Compose "between rows 10 and 14" as the rows of aisles."""
+    return gaps
+
+
+@construction("between_gaps: BETWEEN [ROW] first=row_name AND [ROW] last=row_name", cost=0.0)
+@construction("gaps: FROM ROW first=row_name range_to [ROW] last=row_name", cost=0.0)
 def between_two_rows(first: Lex, last: Lex) -> s.Selector:
     """Compose "between rows 10 and 14"."""
     return s.Rows(first=name_of(first), last=name_of(last))
 
 
-@construction("gaps: BETWEEN rows=any_rows", cost=0.1)
+@construction("between_gaps: BETWEEN rows=any_rows", cost=0.1)
 def between_rows(rows: s.Selector) -> s.Selector | None:
     """Compose "between the beds" and "between beds 6, 7 and 8"."""
     return (s.Trees() if rows == s.Rows() else rows) if are_several_rows(rows) else None
 
 
 @construction(
-    "gaps: BETWEEN first=crop_area AND last=crop_area", "gaps: BETWEEN first=rows AND last=rows",
-    "gaps: BETWEEN first=crop_area AND last=rows", "gaps: BETWEEN first=rows AND last=crop_area",
+    "between_gaps: BETWEEN first=crop_area AND last=crop_area", "between_gaps: BETWEEN first=rows AND last=rows",
+    "between_gaps: BETWEEN first=crop_area AND last=rows", "between_gaps: BETWEEN first=rows AND last=crop_area",
     cost=0.1, given=("site",),
 )  # fmt: skip
 def between_planted(first: s.Selector, last: s.Selector, site: Site) -> s.Selector | None:
@@ -237,16 +241,71 @@ def worked_from_an_aisle(one: WorkCommand, aisle: Aisle, used: int, site: Site) 
 # --- places in aisles -------------------------------------------------------------------------------------------------
 
 
-@construction("halfway: HALFWAY part=tract", "place: [DET] MIDDLE OF part=tract", cost=0.1, given=("site",))
-def middles_of_aisles(part: Tract, site: Site) -> PlaceMeaning | None:
-    """Compose "the middle of every aisle": beside the middle plant of the row before it."""
-    pairs = aisles_in(part.selector, site) if part.mode == "aisles" and part.every == 1 else []
-    of = s.Trees() if are_rows(part.selector) else part.selector
+@construction("in_aisle: part=tract", "in_aisle: gaps=between_gaps", cost=0.0)
+def in_aisle(part: Tract | None = None, gaps: s.Selector | None = None) -> s.Selector | None:
+    """Compose "the aisle between rows 3 and 4" and "between rows 3 and 4"."""
+    if part is not None:
+        return part.selector if part.mode == "aisles" and part.every == 1 else None
+    return gaps
+
+
+def _beside(aisles: s.Selector, site: Site, at: s.Selector) -> PlaceMeaning | None:
+    """Return the place in each of some aisles beside a plant of the row before it."""
+    of = s.Trees() if are_rows(aisles) else aisles
     places = [
-        s.Beside(side=_side_of(other, row, site), of=s.Middle(of=over(row_itself(row, site), of)))
-        for row, other in pairs
+        s.Beside(side=_side_of(other, row, site), of=over(at, over(row_itself(row, site), of)))
+        for row, other in aisles_in(aisles, site)
     ]
-    if not places:
-        return None
     n = len(places)
-    return PlaceMeaning(all_of(places), "one" if n == 1 else "several", count=n, each=n > 1)
+    return PlaceMeaning(all_of(places), "one" if n == 1 else "several", count=n, each=n > 1) if places else None
+
+
+@construction(
+    "halfway: HALFWAY aisles=in_aisle", "place: [DET] MIDDLE OF aisles=in_aisle",
+    "place: [DET] MIDDLE in_ aisles=in_aisle",
+    "place: [DET] MIDDLE aisles=in_aisle", "adverbial_place: aisles=between_gaps COMMA AT DET MIDDLE",
+    cost=0.1, given=("site",),
+)  # fmt: skip
+def middles_of_aisles(aisles: s.Selector, site: Site) -> PlaceMeaning | None:
+    """Compose "the middle of every aisle": beside the middle plant of the row before it."""
+    return _beside(aisles, site, s.Middle())
+
+
+@construction(
+    "place: [DET] at=row_end OF aisles=in_aisle", "place: [DET] at=row_end aisles=in_aisle",
+    "place: aisles=in_aisle COMMA AT DET at=row_end", "place: aisles=in_aisle AT DET at=row_end",
+    "adverbial_place: aisles=between_gaps COMMA AT DET at=row_end",
+    "adverbial_place: aisles=between_gaps AT DET at=row_end",
+    cost=0.1, given=("site",),
+)  # fmt: skip
+def end_of_aisles(at: Positions, aisles: s.Selector, site: Site) -> PlaceMeaning | None:
+    """Compose "the north end of the aisle between rows 3 and 4"."""
+    if at.near is not None:
+        return None
+    return _beside(aisles, site, s.InRow(first=1, last=1, counted_from=at.counted_from))
+
+
+@construction(
+    "place: EACH [OF] [DET] FINISH OF aisles=in_aisle", "place: EACH [OF] [DET] FINISH aisles=in_aisle",
+    cost=0.1, given=("site",),
+)  # fmt: skip
+def both_ends_of_aisles(aisles: s.Selector, site: Site) -> PlaceMeaning | None:
+    """Compose "both ends of the aisle between rows 3 and 4"."""
+    ends = [_beside(aisles, site, s.InRow(first=at, last=at)) for at in (1, -1)]
+    parts = [part for one in ends if one is not None for part in one.selector.members]
+    return PlaceMeaning(all_of(parts), "several", count=len(parts), each=True) if parts else None
+
+
+@construction("adverbial_place: gaps=between_gaps", cost=0.3, given=("site",))
+def somewhere_in_an_aisle(gaps: s.Selector, site: Site) -> list[PlaceMeaning] | None:
+    """Compose "between rows 3 and 4", of one aisle: in its middle, or at one of its ends?"""
+    if len(aisles_in(gaps, site)) != 1:
+        return None
+    spots = (s.Middle(), s.InRow(first=1, last=1), s.InRow(first=-1, last=-1))
+    return [found for at in spots if (found := _beside(gaps, site, at)) is not None]
+
+
+@construction("place: at=adverbial_place", cost=0.0)
+def between_rows_as_place(at: PlaceMeaning) -> PlaceMeaning:
+    """Compose "between rows 3 and 4" as a place."""
+    return at

@@ -36,13 +36,19 @@ def at_edge(word: Lex, zone: Lex, site: Site) -> s.Selector | None:
     return s.Transect(count=1, shape="edge", zone=zone.value) if beside else None
 
 
-@construction("part: where=at_edge", "part: place=zone_beside", "part: place=bearing_place", cost=0.1)
+@construction(
+    "part: where=at_edge",
+    "part: place=zone_beside",
+    "part: place=bearing_place",
+    "part: place=adverbial_place",
+    cost=0.1,
+)
 def edge_part(where: s.Selector | None = None, place: PlaceMeaning | None = None) -> Clause:
     """Compose "at the pond" of "read CO2 at the pond" and "next to the mast"."""
     return Clause("p", place=place or PlaceMeaning(where or s.Here(), "one"))
 
 
-@construction("lead: where=at_edge", "lead: place=zone_beside", cost=1.2)
+@construction("lead: where=at_edge", "lead: place=zone_beside", "lead: place=adverbial_place", cost=1.2)
 def edge_lead(used: int, where: s.Selector | None = None, place: PlaceMeaning | None = None) -> Lead:
     """Compose "(CO2 at the trough,) then at the pond" and "next to the mast, ..."."""
     return Lead(place or PlaceMeaning(where or s.Here(), "one"), used)

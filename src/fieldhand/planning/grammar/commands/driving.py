@@ -64,6 +64,8 @@ def drive_to(place: PlaceMeaning, used: int, verb: Lex | None = None, along: Lex
         return None  # of which trees, and what is done there?
     if along is not None and place.shape == "several" and as_some(place.selector) is not None:
         return None  # "along 5 trees": those follow each other
+    if along is not None and getattr(place.selector, "shape", "") == "edge":
+        return None  # "along the north edge of the meadow", which is no one place
     return DriveCommand(place, used, begins=verb is not None and "begins" in verb.features)
 
 
@@ -135,10 +137,11 @@ def go_on_with(verb: Lex, place: PlaceMeaning, used: int) -> Again | None:
     return Again(place, used) if "goes_on" in verb.features else None
 
 
-@construction("lead: GO WITH place=place", "lead: place=place FIRSTONE", cost=0.8)
-def begin_in(place: PlaceMeaning, used: int) -> Lead | None:
+@construction("lead: verb=GO WITH place=place", "lead: place=place FIRSTONE", cost=0.8)
+def begin_in(place: PlaceMeaning, used: int, verb: Lex | None = None) -> Lead | None:
     """Compose "start with row 1" before what is done there."""
-    return Lead(place, used) if place.shape == "area" else None
+    begins = verb is None or "goes_on" not in verb.features
+    return Lead(place, used, begins=begins) if place.shape == "area" else None
 
 
 @construction("drive: word=RETURN [AT] place=place", cost=0.5)
@@ -160,12 +163,18 @@ def end_on_ground(word: Lex, where: s.Selector, used: int, site: Site) -> DriveC
     return DriveCommand(PlaceMeaning(middle, "one"), used, returns=True, ends="ends_there" in word.features)
 
 
-@construction("drive: GO way=ALONG where=region", "drive: GO to=AT where=region", "drive: GO where=region", cost=0.2)
-def drive_along(where: s.Selector, used: int, way: Lex | None = None, to: Lex | None = None) -> DriveCommand:
+@construction(
+    "drive: GO way=ALONG where=region", "drive: verb=GO to=AT where=region", "drive: verb=GO where=region", cost=0.2
+)
+def drive_along(
+    where: s.Selector, used: int, way: Lex | None = None, to: Lex | None = None, verb: Lex | None = None
+) -> DriveCommand:
     """Compose "drive along row 3"."""
     place = PlaceMeaning(where, "area")
     if way is None:
-        return DriveCommand(place, used, to=to is not None and not to.features.isdisjoint({"motion", "within"}))
+        begins = verb is not None and "begins" in verb.features
+        to_it = to is not None and not to.features.isdisjoint({"motion", "within"})
+        return DriveCommand(place, used, begins=begins and to_it, to=to_it)
     along: Along = "up" if "upwards" in way.features else "down" if "downwards" in way.features else "along"
     return DriveCommand(place, used, along=along)
 

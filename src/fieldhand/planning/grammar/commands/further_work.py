@@ -121,6 +121,8 @@ def worked_likewise(
     found: list[Said] = []
     for parameters, sides in product(_parameters(last, one, robot), _sides(last, one)):
         for work in along_tract(replace(plain, parameters=parameters[1]), one.where, robot):
+            if sides != "one" and work.sides != "one":
+                continue  # "film the east side of bed 8 and the west side of bed 9"
             made = _as_said(replace(work, sides=sides) if sides != "one" else work, one, site)
             if made is None or (made.mode != last.mode and {made.mode, last.mode} <= {"rows", "aisles"}):
                 continue

@@ -120,7 +120,7 @@ def less_than(most: Amount, used: int) -> LimitClause | None:
 )
 def emphasised(said: LimitClause, used: int) -> LimitClause | None:
     """Compose "within 20 minutes and not a minute more" and "be done in 20 minutes"."""
-    return None if said.keep else replace(said, used=used)
+    return None if said.keep else replace(said, used=used, later=False)
 
 
 @construction(
@@ -146,7 +146,7 @@ def at_most_so_much(
 def in_time(word: Lex, most: Amount, used: int) -> LimitClause | None:
     """Compose "in 20 minutes" and "on 20 % of the battery"."""
     if most.unit == "seconds" and "in_time" in word.features:
-        return LimitClause(most, False, used)
+        return LimitClause(most, False, used, later=True)
     return LimitClause(most, False, used) if most.unit == "percent" and "on_charge" in word.features else None
 
 

@@ -210,7 +210,7 @@ def view_of(choice: Lex, name: Lex, robot: RobotProfile, n: int | None = None) -
 @construction("capture: AGAIN how=parameter", "capture: how=parameter AGAIN", cost=0.6, given=("robot",))
 def again_with(how: ParameterValue, used: int, robot: RobotProfile) -> list[CaptureCommand] | None:
     """Compose "(then) again at 40 cm", of what was captured last."""
-    return [CaptureCommand((one,), None, used) for one in another_with(how, robot) or ()] or None
+    return [CaptureCommand((replace(one, count=None),), None, used) for one in another_with(how, robot) or ()] or None
 
 
 @construction("thing: ONE how=parameter", "thing: ANOTHER [ONE] how=parameter", cost=0.8, given=("robot",))
@@ -426,6 +426,7 @@ def more_amounts(first: tuple[Lex | Amount, ...], then: Lex | Amount) -> tuple[L
     "parameters: word=AT PARAMETER [OF] first=amounts and_again last=amount",
     "parameters: word=AT first=amounts and_again AT last=amount",
     "parameters: [word=AT] first=amounts and_again last=NUM",
+    "parameters: word=AT first=amounts and_again AT last=NUM",
     cost=0.1,
 )
 def one_unit_of_several(

@@ -9,6 +9,7 @@ from fieldhand.planning.grammar.chart import Grammar
 from fieldhand.planning.grammar.commands.clauses import Adjunct, once
 from fieldhand.planning.grammar.meaning import (
     LAST_THING,
+    Amount,
     CaptureCommand,
     LinkedCommand,
     PaceClause,
@@ -21,6 +22,7 @@ from fieldhand.planning.grammar.places.points import Points, points_on
 from fieldhand.planning.grammar.places.sampling import (
     SamplingPath,
     bare_ground,
+    every_so_far_over,
     grid_selector,
     is_on_bare_ground,
     laid_over,
@@ -169,6 +171,20 @@ def spaced_again(dist: float, rows: s.Selector, used: int) -> CaptureCommand:
 def on_grid(on: tuple[float, s.Selector | None], site: Site) -> Adjunct:
     """Compose "on a 20 m grid over the meadow"."""
     return Adjunct(_on_grid, _Cells(*on, site), may_lead=True, lays_out=True)
+
+
+@construction("adjunct: word=OVER where=region COMMA once=things EACH far=amount", cost=0.2, given=("site",))
+def one_every_so_far(word: Lex, where: s.Selector, once: tuple[Thing, ...], far: Amount, site: Site) -> Adjunct | None:
+    """Compose "all over the patch, one picture every 4 m", of pictures."""
+    on = every_so_far_over(word, where, far)
+    return None if on is None else Adjunct(_on_grid_once, (_Cells(*on, site), once), lays_out=True)
+
+
+def _on_grid_once(command: CaptureCommand, laid: tuple[_Cells, tuple[Thing, ...]]) -> CaptureCommand | None:
+    """Return a command at the places of a grid, if its captures are what is named again, once at each."""
+    cells, once = laid
+    same = [one.action for one in command.things] == [one.action for one in once] and len(once) == 1
+    return _on_grid(command, cells) if same and once[0].count == 1 else None
 
 
 @construction("adjunct: every=each_way", cost=0.2, given=("site",))

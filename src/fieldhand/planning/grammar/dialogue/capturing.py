@@ -135,7 +135,9 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
         state = enter(setting, state, state.area)  # "move two rows over and take another"
     state, begun = _along_from_its_end(state, command)
     same = any(one.action == LAST_THING and one.count is None for one in command.things)
-    if same and command.place is not None and command.place.shape == "area" and command.spacing is None:
+    there = command.place or (state.lead.place if state.lead is not None else None)
+    of_all = there is not None and there.shape == "area" and not bare_points(there.selector, setting.site, 1)
+    if same and command.spacing is None and (of_all or (command.place is not None and command.place.shape == "area")):
         raise NotComposed(message("at every tree, or at how many?", context="fault"))
     state, command = _with_unsaid_again(setting, state, command)
     state, things = named_things(setting, state, command)
@@ -183,6 +185,7 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
         asked = message("'{said}': at how many places?", context="question", said=setting.quoted(command.used))
         raise OpenQuestion(asked)
     refuse_keep_out(setting, place)
+    place, things = _at_end_of_row(setting, state, command, place, things)
     place, things = fitted(setting, place, things, command.relation, command.used)
     if state.where is not None and any(one.more and (one.count or 0) > 1 for one in command.things):
         place = replace(place, selector=drawn_like(place.selector, state.where.selector))
@@ -190,6 +193,20 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
         return capture_once(state, replace(command, things=things), place, said, at_said)
     state = replace(state, loop=None)
     return _capture_at_each(setting, state, replace(command, things=things), place, said, at_said)
+
+
+def _at_end_of_row(
+    setting: Setting, state: DialogueState, command: CaptureCommand, place: PlaceMeaning, things: tuple[Thing, ...]
+) -> tuple[PlaceMeaning, tuple[Thing, ...]]:
+    """Return "(one plant at the north end and) two at the south end": so many there, or at so many plants?"""
+    end, number = as_in_row(place.selector), command.things[0].count or 1
+    refers = [one.action for one in command.things] == [LAST_THING] and not command.things[0].more
+    at_end = end is not None and end.first == end.last == 1 and end.counted_from != "usual"
+    if not refers or number < 2 or end is None or not at_end or state.where is None:
+        return place, things
+    several = replace(place, selector=replace(end, last=number), shape="several", count=number)
+    once = tuple(replace(one, count=None) for one in things)
+    return setting.either("so many there, or at so many plants?", command.used, ((place, things), (several, once)))
 
 
 def refuse_keep_out(setting: Setting, place: PlaceMeaning) -> None:

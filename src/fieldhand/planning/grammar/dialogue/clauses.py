@@ -43,6 +43,7 @@ from fieldhand.planning.grammar.dialogue.fitting import in_area, is_spoken_of
 from fieldhand.planning.grammar.dialogue.fragments import assembled
 from fieldhand.planning.grammar.dialogue.in_parts import shared_out
 from fieldhand.planning.grammar.dialogue.intervals import at_intervals, with_intervals
+from fieldhand.planning.grammar.dialogue.its_parts import with_its_parts
 from fieldhand.planning.grammar.dialogue.likewise import with_known_place
 from fieldhand.planning.grammar.dialogue.paces import paced, paced_drive, with_paces
 from fieldhand.planning.grammar.dialogue.plans import (
@@ -192,6 +193,7 @@ def _ended(setting: Setting, state: DialogueState) -> DialogueState:
     state = _without_idle(state)
     if all(step.ends_plan for step in state.plan.steps):
         raise NotComposed(message("it asks for nothing to be done", context="fault"))
+    _require_time_to_work(setting, state)
     for _, node in walk(state.plan):
         if (loop := as_for_each(node)) is not None and _visits_open_number(loop):
             raise NotComposed(message("how many of the others?", context="fault"))
@@ -218,6 +220,24 @@ def _ended(setting: Setting, state: DialogueState) -> DialogueState:
     if state.nominal is None and state.returned and _returns_in_a_case(state.plan.steps[-1]):
         return _ended_in_case(replace(state, nominal="stay"))  # "if it is wet, mow, otherwise return to the charger"
     return state
+
+
+def _require_time_to_work(setting: Setting, state: DialogueState) -> None:
+    """Ask about "in two hours" for work of which none may be left out: within that time, or after it?
+
+    Raises:
+        OpenQuestion: It may be when the work begins.
+    """
+    later = next((limit for limit in state.limits if limit.later), None)
+    left_out = any(node.is_optional or node.is_optional_step for _, node in walk(state.plan))
+    if later is None or left_out or state.nominal is not None:
+        return
+    asked = message(
+        "'{said}': within that time, or not before it is over? Say 'within', or the time of day at which it begins.",
+        context="question",
+        said=setting.quoted(later.used),
+    )
+    raise OpenQuestion(asked)
 
 
 def _chooses_among(drive: DriveCommand, command: object) -> bool:
@@ -271,6 +291,9 @@ def _read(
 ) -> DialogueState:
     """Return the state after a clause."""
     state, command = with_that_ground(state, with_those_rows(state, clause.command))
+    joined_by = clause.before
+    same_sentence = bool(state.commands_in_sentence) and not (joined_by is not None and joined_by.full)
+    command = with_its_parts(setting, state, command, same_sentence=same_sentence)
     clause = replace(clause, command=command)
     if is_compared(clause.command):
         outer, cases = state.scope, in_both_cases(setting, capture_elided(setting, state), clause)
@@ -359,6 +382,8 @@ def _read(
         case WorkCommand():
             return work_along(setting, state, command)
         case Lead():
+            if command.begins and state.plan.steps:
+                raise NotComposed(message("where to begin has to be said before the work", context="fault"))
             if joint is not None and not (joint.full or joint.then or joint.both):
                 _require_other_places(state, command.place)
             return _lead(setting, state, command)

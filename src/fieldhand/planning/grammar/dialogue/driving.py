@@ -64,6 +64,7 @@ def drive(setting: Setting, state: DialogueState, command: DriveCommand) -> Dial
         return with_joints(state, said)  # every mission begins there
     if command.begins and state.plan.steps:
         raise NotComposed(message("where to begin has to be said before the work", context="fault"))
+    command = replace(command, begins=command.begins and not command.to)  # "start at the trough", and drive on from it
     area, leads = state.area, False
     if state.lead is not None and place.shape == "those" and state.lead.place.shape in ("one", "several"):
         before = state.lead  # "our focus is the oldest trees: drive to them"

@@ -12,6 +12,7 @@ from fieldhand.planning.grammar.meaning import DriveCommand, Lead, PlaceMeaning,
 from fieldhand.planning.grammar.places.areas import of_each_block
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.places.sampling import bare_points, bare_zone, is_keep_out
+from fieldhand.planning.grammar.places.zone_parts import part_of_ground, part_within
 from fieldhand.planning.grammar.row_by_row import MOST_ONE_BY_ONE, one_by_one
 from fieldhand.planning.selections import (
     AREAS,
@@ -32,7 +33,10 @@ from fieldhand.planning.selections import (
     rows_kept,
     swapped,
 )
+from fieldhand.site.model import Site
 
+#: Largest area of something that is one place, and not ground over which several are spread, in square metres.
+_LARGEST_SPOT_M2 = 25.0
 #: Words that tie captures to an area and leave open at which of its trees ("a picture of row 3", "along row 3").
 _OPEN = ("of", "along")
 
@@ -78,6 +82,10 @@ def in_area(setting: Setting, before: Lead | DriveCommand, place: PlaceMeaning |
         if are_rows(area) and not is_one_row(area) and place.selector != s.Trees():
             return PlaceMeaning(s.Trees(), "area", each=True, per=area)
         return PlaceMeaning(area, "several", each=True)
+    part = part_within(place.selector) if place.per is None and bare_zone(area, setting.site) else None
+    there = None if part is None else part_of_ground(place.selector, part, area, setting.site)
+    if there is not None:  # "in the herb patch, ... at the corners"
+        return replace(place, selector=there, shape="one" if place.shape == "area" else place.shape)
     if place.per is None and place.shape in ("one", "several") and chooses_from_trees(place.selector):
         counted = [row for part in place.selector.walk() if (row := as_in_row(part)) is not None]
         if isinstance(area, s.RowOf) and any(row.of == s.Trees() for row in counted):
@@ -346,17 +354,25 @@ def _quota(setting: Setting, selector: s.Selector, rows: s.Selector, *, by_row: 
     return of_each_block(selector, rows.members, setting.site)
 
 
+def _is_spot(area: s.Selector, site: Site) -> bool:
+    """Return True for a zone so small that there is one place to be at: a trough, a mast."""
+    name = bare_zone(area, site)
+    return bool(name) and 0.0 < sum(one.polygon.area for one in site.zones if one.name == name) <= _LARGEST_SPOT_M2
+
+
 def _of_area(
     setting: Setting, place: PlaceMeaning, things: tuple[Thing, ...], count: int | None, relation: str, used: int
 ) -> PlaceMeaning:
     """Return the trees of an area: all of them, or as many as there are captures; of bare ground so many points."""
     each = [bare_points(part, setting.site, 1) for part in place.selector.members]
-    if len(each) > 1 and None not in each and (count not in (None, 1) or _are_plural(things)):
+    spots = all(_is_spot(part, setting.site) for part in place.selector.members)  # "at the trough and the tap"
+    one_each = count is None and (spots or not _are_plural(things))
+    if len(each) > 1 and None not in each and count != 1 and not one_each and not (spots and count == len(each)):
         raise OpenQuestion(message("'{said}': at how many places?", context="question", said=setting.quoted(used)))
     if len(each) > 1 and None not in each:
         return PlaceMeaning(s.UnionOf(parts=tuple(one for one in each if one is not None)), "several", count=len(each))
     if (points := bare_points(place.selector, setting.site, count or 1)) is not None:
-        if count is None and _are_plural(things):
+        if count is None and not one_each:
             raise OpenQuestion(message("'{said}': at how many places?", context="question", said=setting.quoted(used)))
         return PlaceMeaning(points, "several" if (count or 1) > 1 else "one", count=count)
     named = [as_zone(part) for part in place.selector.members]

@@ -9,7 +9,15 @@ from typing import Any, cast
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.those_rows import with_known
-from fieldhand.planning.grammar.meaning import LAST_THING, THAT_GROUND, CaptureCommand, LinkedCommand, PlaceMeaning
+from fieldhand.planning.grammar.meaning import (
+    LAST_THING,
+    THAT_GROUND,
+    UNKNOWN_THINGS,
+    CaptureCommand,
+    Lead,
+    LinkedCommand,
+    PlaceMeaning,
+)
 
 _IT = frozenset({THAT_GROUND})
 
@@ -21,12 +29,37 @@ def shared_out(clauses: Sequence[LinkedCommand]) -> tuple[LinkedCommand, ...]:
     """
     made = list(clauses)
     at = 0
-    while at < len(made) - 2:
+    while at < len(made) - 1:
         parts = _parts_of(made[at], made[at + 1 :])
         if len(parts) > 1:
             made[at : at + 1 + len(parts)] = _at_parts(made[at], parts)
+        elif in_area := _shared_in_area(made[at], made[at + 1 :]):
+            made[at : at + len(in_area)] = in_area
         at += 1
     return tuple(made)
+
+
+def _shared_in_area(whole: LinkedCommand, following: Sequence[LinkedCommand]) -> list[LinkedCommand]:
+    """Return "soil moisture on the slope, one in each corner" as the area, and what is captured in it.
+
+    The result is empty if a number is said of the area, or if nothing is shared out right behind it.
+    """
+    command = whole.command
+    if not isinstance(command, CaptureCommand) or len(command.things) != 1 or command.place is None:
+        return []
+    (thing,), place = command.things, command.place
+    plain = thing.count is None and thing.action not in UNKNOWN_THINGS and command.times == 1
+    if not plain or place.shape != "area" or place.per is not None or place.each or command.spacing is not None:
+        return []
+    parts: list[LinkedCommand] = []
+    for one in following:
+        joined = one.before is not None and (one.before.bare or (bool(parts) and one.before.both))
+        if not joined or not _number_of_part(one):
+            break
+        part = cast(CaptureCommand, one.command)
+        named = replace(thing, count=part.things[0].count, plural=(part.things[0].count or 0) > 1)
+        parts.append(LinkedCommand(one.before, replace(part, things=(named,))))
+    return [LinkedCommand(whole.before, Lead(place, command.used, things=command.things)), *parts] if parts else []
 
 
 def _parts_of(whole: LinkedCommand, following: Sequence[LinkedCommand]) -> Sequence[LinkedCommand]:

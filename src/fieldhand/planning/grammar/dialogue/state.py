@@ -38,6 +38,11 @@ Edits = tuple[tuple[p.Span, str], ...]
 T = TypeVar("T")
 
 
+def _names_nothing(_category: str, _used: int) -> bool:
+    """Return False: no phrases are known."""
+    return False
+
+
 @dataclass(frozen=True)
 class Setting:
     """The robot and the site that the clauses are read for.
@@ -48,6 +53,7 @@ class Setting:
         spans_of: Returns the character ranges of a bit mask of tokens.
         request: The request as typed, which questions quote.
         chosen: Number of the way that was chosen at each fork.
+        names: Returns True if some tokens contain a phrase of a category.
     """
 
     robot: RobotProfile
@@ -55,6 +61,7 @@ class Setting:
     spans_of: Callable[[int], Spans]
     request: str = ""
     chosen: Mapping[Hashable, int] = field(default_factory=dict)
+    names: Callable[[str, int], bool] = _names_nothing
 
     def either(self, what: str, used: int, ways: Sequence[T]) -> T:
         """Return the chosen one of several ways to continue.

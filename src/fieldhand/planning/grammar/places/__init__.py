@@ -38,6 +38,7 @@ from fieldhand.planning.grammar.places import (
     spots,
     steps,
     vague,
+    zone_parts,
     zone_sides,
 )
 
@@ -77,6 +78,7 @@ for _part in (
     beside_them,
     open_parts,
     zone_sides,
+    zone_parts,
     at_bearing,
 ):
     GRAMMAR.include(_part.GRAMMAR)

@@ -255,7 +255,26 @@ def part_of(part: s.Selector, whole: s.Selector, site: Site) -> s.Selector | Non
     named = compass_part(part)
     if named is not None and named[1] == s.Trees() and is_bare(whole, site):
         return swapped(part, s.Trees(), whole)
+    if are_zones(whole) and _is_side(part) and all(ids_of(zone, site) for zone in whole.members):
+        return s.UnionOf(parts=sides) if len(sides := side_of_zones(part, whole)) > 1 else sides[0]
     return over(part, whole) if chooses_from_trees(part) and _is_larger(whole, part) else None
+
+
+def are_zones(area: s.Selector) -> bool:
+    """Return True for zones by their names."""
+    zones = [as_zone(one) for one in area.members]
+    return all(one is not None and not one.outside and one.of == s.Trees() for one in zones)
+
+
+def _is_side(part: s.Selector) -> bool:
+    """Return True for a half, a quarter or an edge of the site."""
+    named, edge = compass_part(part), as_edge(part)
+    return (named is not None and named[1] == s.Trees()) or (edge is not None and edge.of == s.Trees())
+
+
+def side_of_zones(part: s.Selector, zones: s.Selector) -> tuple[s.Selector, ...]:
+    """Return a half, a quarter or an edge of each of some zones, whose middle lines are not those of the site."""
+    return tuple(swapped(part, s.Trees(), zone) for zone in zones.members)
 
 
 def is_bare(area: s.Selector, site: Site) -> bool:
@@ -304,7 +323,7 @@ def the_site(noun: Lex, site: Site, word: Lex | None = None) -> str | None:
 )
 def both_areas(first: s.Selector, second: s.Selector) -> s.Selector | None:
     """Compose "the northern half and the eastern edge"."""
-    if are_rows(first) != are_rows(second) or first == second:
+    if are_rows(first) != are_rows(second) or {*first.members} & {*second.members}:
         return None
     if are_rows(first) and is_whole_rows(first) and not is_whole_rows(second):
         return None  # "row 2 and row 4 in the northern half": both are meant there
@@ -339,7 +358,9 @@ def inside(inner: Nominal, where: s.Selector, way: str) -> Nominal | None:
         return None  # "the tree farthest from the pond"
     if way == "of" and are_rows(where) and any(as_half(part) is not None for part in inner.selector.walk()):
         return None  # "the trees in the northern half of row 4": of that row, not of the orchard
-    if inner.of_side and are_rows(where):
+    if way == "of" and are_zones(where) and any(_is_side(part) for part in inner.selector.walk()) and not inner.of_side:
+        return None  # "the trees in the northern half of the wet corner": of that corner, not of the orchard
+    if inner.of_side and (are_rows(where) or are_zones(where)):
         of_rows = cast(Any, inner.selector)  # "the northern trees of row 4": of that row, not of the orchard
         return replace(inner, selector=replace(of_rows, of=over(of_rows.of, where)))
     return replace(inner, selector=over(inner.selector, where))
@@ -365,8 +386,8 @@ def places_of_area(where: s.Selector, inner: PlaceMeaning, to: Lex | None = None
         return None
     if inner.per is not None or inner.shape not in ("one", "several") or not chooses_from_trees(inner.selector):
         return None
-    if any(isinstance(part, AREAS) for part in inner.selector.walk()):
-        return None  # two areas, one after the other
+    if any(isinstance(part, AREAS) and part != s.Rows() for part in inner.selector.walk()):
+        return None  # two areas, one after the other; "the first plant of each row" has none of its own
     return replace(inner, selector=over(inner.selector, where))
 
 

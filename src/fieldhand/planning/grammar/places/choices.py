@@ -77,6 +77,7 @@ def either_end(rows: s.Selector, noun: Lex | None = None) -> list[PlaceMeaning] 
     "place: ANY noun=FINISH in_ rows=rows", "place: ANY noun=FINISH in_ rows=rows AND in_ then=rows",
     "place: ANY noun=FINISH in_ rows=rows AND then=rows", "place: ANY noun=FINISH in_ rows=each_row",
     "place: ANY noun=FINISH in_ rows=rows AND ANY FINISH in_ then=rows",
+    "place: [DET] TREE in_ ANY noun=FINISH in_ rows=rows", "place: [DET] TREE in_ ANY noun=FINISH in_ rows=each_row",
     cost=0.1,
 )  # fmt: skip
 def either_end_of_several(rows: s.Selector, noun: Lex, then: s.Selector | None = None) -> PlaceMeaning | None:

@@ -16,6 +16,7 @@ from fieldhand.planning.grammar.meaning import Likewise, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.areas import inside
 from fieldhand.planning.grammar.places.compass import AWAY_FROM, CORNERS, SIDES
 from fieldhand.planning.grammar.places.counted import Positions, TreeNumbers, fills_rows, row_of_all, rows_within
+from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.places.numbers import VAGUE_NUMBERS
 from fieldhand.planning.grammar.places.rows import in_each_row
 from fieldhand.planning.grammar.places.steps import Distance
@@ -313,6 +314,26 @@ def begin_with(rank: Lex) -> int:
 def starting_with(chosen: Chosen, start: int) -> Chosen | None:
     """Compose "every third tree, starting with the second one"."""
     return _with_nth(chosen, start=start)
+
+
+@construction("chosen: chosen=chosen [COMMA] begins_at trees=tree_ids", cost=0.1, given=("site",))
+def starting_with_tree(chosen: Chosen, trees: tuple[str, ...], site: Site) -> Chosen | None:
+    """Compose "every third tree of row 4, starting with tree 2", by its number in the row or by its id."""
+    of = chosen.inner.selector
+    there = ids_of(of, site) if are_rows(of) and is_one_row(of) else None
+    if len(trees) != 1 or not there:
+        return None
+    (name,) = trees
+    if name in there:
+        before = (
+            number
+            for number in range(1, len(there) + 1)
+            if ids_of(s.InRow(first=number, last=number, of=of), site) == {name}
+        )
+        number = next(before, 0)
+    else:
+        number = int(name) if name.isdigit() and 0 < int(name) <= len(there) else 0
+    return _with_nth(chosen, start=number) if number else None
 
 
 @construction("chosen: chosen=chosen [COMMA] side=start", cost=0.1)

@@ -465,6 +465,41 @@ def so_many_of_each_kind(
     return of_each_kind(chosen, kinds, site)
 
 
+@construction("place: n=count kinds=per_kind", cost=0.3, given=("site",))
+def so_many_of_every_kind(n: int, kinds: EachKind, site: Site) -> list[PlaceMeaning] | None:
+    """Compose "two of each crop"."""
+    return of_each_kind(s.Take(count=n, of=s.Trees()), kinds, site)
+
+
+@construction("kind_list: kinds=place", cost=0.0)
+def named_kinds(kinds: PlaceMeaning) -> tuple[s.Selector, ...] | None:
+    """Compose "the tomatoes", the beginning of "the tomatoes, the cucumbers"."""
+    parts = kinds.selector.members
+    plain = kinds.shape == "several" and kinds.count is None and kinds.per is None and not kinds.optional
+    described = all(is_description(part) and as_where(part) is not None for part in parts)
+    return parts if plain and described else None
+
+
+@construction(
+    "kind_list: first=kind_list COMMA last=kind_list", "kind_list: first=kind_list [COMMA] AND last=kind_list", cost=0.0
+)
+def longer_kind_list(first: tuple[s.Selector, ...], last: tuple[s.Selector, ...]) -> tuple[s.Selector, ...] | None:
+    """Compose "the tomatoes, the cucumbers"."""
+    return None if {*first} & {*last} else (*first, *last)
+
+
+@construction(
+    "place: n=count APIECE OF kinds=kind_list",
+    "place: n=count INEACH COMMA kinds=kind_list",
+    "place: n=count OF EACH COMMA kinds=kind_list",
+    cost=0.0,
+)
+def so_many_of_named_kinds(n: int, kinds: tuple[s.Selector, ...]) -> PlaceMeaning | None:
+    """Compose "two each of the tomatoes and the cucumbers" and "two of each: tomatoes, cucumbers"."""
+    some = tuple(s.Take(count=n, of=part) for part in kinds)
+    return PlaceMeaning(s.UnionOf(parts=some), "several", count=n * len(some)) if len(some) > 1 else None
+
+
 def of_each_kind(chosen: s.Selector, kinds: EachKind, site: Site) -> list[PlaceMeaning] | None:
     """Return what a selector chooses, of each of the kinds that the site records.
 

@@ -51,6 +51,12 @@ def line(start: s.Selector, end: s.Selector) -> SamplingLine:
     return SamplingLine(start, end)
 
 
+@construction("adverbial_place: MIDWAY line=line", "place: [DET] MIDDLE line=line", cost=0.1)
+def midway(line: SamplingLine) -> PlaceMeaning:
+    """Compose "halfway between the trough and the mast"."""
+    return PlaceMeaning(s.StraightLine(start=line.start, end=line.end, count=1), "one")
+
+
 @construction(
     "path_over: AT [DET] STRAIGHTLINE line=line",
     "path_over: ALONG [DET] STRAIGHTLINE line=line",

@@ -17,6 +17,7 @@ from fieldhand.planning.selections import (
     are_rows,
     as_quota,
     as_rows,
+    as_zone,
     chooses_from_trees,
     counts_in_row,
     is_extreme,
@@ -24,6 +25,7 @@ from fieldhand.planning.selections import (
     is_one_row,
     of_each,
     over,
+    swapped,
 )
 from fieldhand.site.counting import find_row, rows_from
 from fieldhand.site.model import Site
@@ -393,7 +395,11 @@ def each_row_of_area(rows: s.Selector, where: s.Selector) -> s.Selector | None:
     if are_rows(where) or not chooses_from_trees(where):
         return None
     inside = over(rows, where)
-    return inside if are_rows(inside) else None
+    if are_rows(inside):
+        return inside
+    zone = as_zone(where)
+    whole = zone is not None and not zone.outside and not zone.margin_m and zone.of == s.Trees()
+    return swapped(rows, s.Trees(), where) if whole else None
 
 
 @construction(

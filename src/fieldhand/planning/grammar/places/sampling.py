@@ -496,6 +496,26 @@ def grid_over(every: float, where: s.Selector | None = None) -> tuple[float, s.S
     return every, where
 
 
+@construction(
+    "grid_over: EACH far=amount word=OVER where=region",
+    "grid_over: word=OVER where=region [COMMA] [DET] READING EACH far=amount",
+    "grid_over: word=OVER where=region [COMMA] [n=count] READING EACH far=amount",
+    "grid_over: word=OVER where=region COMMA n=count EACH far=amount",
+    cost=0.1,
+)
+def every_so_far_over(word: Lex, where: s.Selector, far: Amount, n: int = 1) -> tuple[float, s.Selector] | None:
+    """Compose "every 4 m all over the patch"; "around" and "through" it are lines."""
+    if n != 1 or far.unit != "metres" or far.number <= 0 or "covers" not in word.features or not is_zone_of(where):
+        return None
+    return far.number, where
+
+
+def is_zone_of(area: s.Selector) -> bool:
+    """Return True for a zone, or for a half or a quarter of one."""
+    part = compass_part(area)
+    return as_zone(area if part is None else part[1]) is not None
+
+
 @construction("grid_over: on=grid_over out=but_out", cost=0.1)
 def grid_but(on: tuple[float, s.Selector | None], out: Omission) -> tuple[float, s.Selector | None] | None:
     """Compose "on a 20 m grid over the meadow except in the wet corner"."""

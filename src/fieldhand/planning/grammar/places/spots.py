@@ -125,6 +125,12 @@ def middle_of(where: s.Selector, site: Site, noun: Lex | None = None) -> PlaceMe
     return PlaceMeaning(s.Middle(of=where), "one")
 
 
+@construction("adverbial_place: MIDWORD where=region", cost=0.2, given=("site",))
+def mid_area(where: s.Selector, site: Site) -> PlaceMeaning | list[PlaceMeaning] | None:
+    """Compose "mid warm section"."""
+    return middle_of(where, site)
+
+
 @construction(
     "halfway: HALFWAY where=rows", "halfway: HALFWAY where=each_row", "halfway: HALFWAY where=all_rows", cost=0.0
 )

@@ -331,6 +331,27 @@ def beside_marker(at: s.Selector | None = None, gate: Lex | None = None) -> Plac
     return PlaceMeaning(at or s.GateIs(gate=gate.value if gate is not None else ""), "one")
 
 
+@construction(
+    "zone_beside: first=zone_beside AND [DET] zone=ZONE", "zone_beside: first=zone_beside COMMA [DET] zone=ZONE",
+    "zone_beside: first=zone_beside AND at=marker", "zone_beside: first=zone_beside COMMA at=marker",
+    "zone_beside: first=zone_beside AND [DET] gate=GATENAME",
+    "zone_beside: first=zone_beside COMMA [DET] gate=GATENAME",
+    "zone_beside: first=zone_beside COMMA AND [DET] zone=ZONE",
+    cost=0.0, given=("site",),
+)  # fmt: skip
+def beside_several(
+    first: PlaceMeaning, site: Site, zone: Lex | None = None, at: s.Selector | None = None, gate: Lex | None = None
+) -> PlaceMeaning | None:
+    """Compose "next to the compost heap and the herb patch": outside of each of them."""
+    further = beside_marker(at, gate) if zone is None else beside_zone(zone, site)
+    if further is None or (first.shape != "one" and first.count is None):
+        return None
+    parts = (*first.selector.members, *further.selector.members)
+    if len({*parts}) < len(parts):
+        return None
+    return PlaceMeaning(s.UnionOf(parts=parts), "several", count=len(parts), each=True)
+
+
 @construction("zone_beside: NEXTTO at=place", cost=0.3)
 def beside_plants(at: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "next to three random leeks": work on soil or air beside a plant is done at it."""
