@@ -16,6 +16,7 @@ from fieldhand.site.extent import drop_strays, middle_of
 from fieldhand.site.feature_kinds import row_of
 from fieldhand.site.features import AreaFeature, FeatureSet, PointFeature, readable
 from fieldhand.site.formats.faults import Faults, UnusableFeature, numbered
+from fieldhand.site.landmarks import is_named, landmark_zones
 from fieldhand.site.model import Place, Site, Tree, Zone
 from fieldhand.site.projection import Projection
 
@@ -56,6 +57,9 @@ def build(features: FeatureSet, faults: Faults, *, name: str, sha256: str, notes
     fences, opens_nothing = barrier_zones(sound.barriers, gates, projection)
     trees, about_trees = _trees(planted, numbering, projection, zones + fences, faults)
     marked = [p for p in sound.points if p.kind not in ("tree", "gate", "landmark")]
+    landmarks = [p for p in sound.points if p.kind == "landmark"]
+    others = [p for p in sound.points if p.kind != "landmark"]
+    fences += landmark_zones(landmarks, others, zones, projection)
     markers = _markers(marked, projection, zones + fences, faults)
     faults.check()
     bare = [z for z in (*zones, *fences) if z.kind != "keep_out"]
@@ -311,10 +315,10 @@ def _notes(features: FeatureSet, faults: Faults) -> list[str]:
     notes: list[str] = []
     if features.closed:
         notes.append(f"a polygon that was not closed was closed: {numbered(faults.unit, features.closed)}")
-    landmarks = Counter(p.word.lower()[:30] for p in features.points if p.kind == "landmark")
-    if landmarks:
-        listing = ", ".join(f"{n} x {word}" for word, n in landmarks.most_common(5))
-        notes.append(f"points that are not trees were left out: {listing}")
+    unnamed = Counter(p.word.lower()[:30] for p in features.points if p.kind == "landmark" and not is_named(p))
+    if unnamed:
+        listing = ", ".join(f"{n} x {word}" for word, n in unnamed.most_common(5))
+        notes.append(f"points that are neither trees nor named were left out: {listing}")
     if features.lines:
         notes.append(
             f"{features.lines} line{'s' * (features.lines > 1)} left out: the only lines used are barriers"

@@ -17,7 +17,7 @@ from fieldhand.terms import Value
 ZoneKind = Literal["boundary", "keep_out", "zone"]
 PointKind = Literal["tree", "start", "end", "charger", "gate", "landmark"]
 
-KIND_KEYS = ("marker symbol", "kind", "type", "symbol", "class", "feature type", "category")
+KIND_KEYS = ("marker symbol", "kind", "type", "symbol", "class", "feature type", "category", "role")
 NAME_KEYS = ("name", "title", "label")
 ROW_KEYS = ("row", "row id", "row number", "row no", "row num", "row name")
 BLOCK_KEYS = (
@@ -62,15 +62,18 @@ PLANTS = frozenset({
 })
 
 #: A kind that ends in one of these words is an opening in a fence.
-GATES = frozenset({"gate", "entrance"})
+GATES = frozenset({"gate", "entrance", "door", "doorway"})
 
 #: A kind that ends in one of these words is an object other than a tree.
 LANDMARKS = frozenset({
-    "door", "well", "borehole", "pole", "post", "pylon", "pump", "valve", "hydrant", "tap",
+    "well", "borehole", "pole", "post", "pylon", "pump", "valve", "hydrant", "tap",
     "outlet", "sprinkler", "sensor", "station", "probe", "camera", "antenna", "gateway", "trap", "sign", "barn",
     "shed", "house", "building", "office", "silo", "tank", "hive", "hives", "rock", "boulder", "stump", "parking",
-    "crossing", "bridge", "landmark", "waypoint",
+    "crossing", "bridge", "landmark", "waypoint", "marker", "mast", "trough",
 })
+
+#: Landmarks that robots drive over.
+OPEN_LANDMARKS = frozenset({"parking", "crossing", "bridge", "waypoint"})
 
 #: A line whose kind ends in one of these words is a barrier that no robot crosses.
 _BARRIERS = frozenset({

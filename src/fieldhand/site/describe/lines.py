@@ -153,7 +153,9 @@ def figure_words(number: float) -> str:
 
 
 def _area_words(square_metres: float) -> str:
-    return f"{square_metres / 10_000:.2f} ha" if square_metres >= 1000.0 else f"{square_metres:.0f} m2"
+    if square_metres >= 1000.0:
+        return f"{square_metres / 10_000:.2f} ha"
+    return f"{square_metres:.0f} m2" if square_metres >= 1.0 else f"{square_metres:.1f} m2"
 
 
 def marker_words(marker: tuple[str, float, float]) -> str:
