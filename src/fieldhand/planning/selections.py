@@ -290,6 +290,12 @@ def as_excluding(selector: s.Selector) -> s.Excluding | None:
     return selector if isinstance(selector, s.Excluding) else None
 
 
+def part_on_side(side: s.Selector, whole: s.Selector) -> s.Selector | None:
+    """Return a half or a quarter that is named by its side alone as that of an area; None for other selectors."""
+    found = compass_part(side)
+    return replace(cast(Any, side), of=whole) if found is not None and found[1] == s.Trees() else None
+
+
 def compass_part(selector: s.Selector) -> tuple[Side | CornerName, s.Selector] | None:
     """Return the side of a half or a quarter and the area that it is a part of; None for other selectors."""
     if isinstance(selector, s.Half):

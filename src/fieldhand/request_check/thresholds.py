@@ -18,6 +18,8 @@ from fieldhand.robot.model import RobotProfile
 _FACTORS = (1.0, 100.0, 0.01, 1e4, 1e-4, 1e3, 1e-3)
 #: Range of attribute values that are calendar years, which may follow from an age.
 _CALENDAR = (1900.0, 2100.0)
+#: Words with which a clause begins, before which another quantity may be named.
+_CLAUSES = frozenset({"if", "when", "whenever", "where", "wherever", "or", "and", ",", "unless"})
 _WAYS = {"below": ("lt", "le"), "above": ("gt", "ge")}
 
 
@@ -137,7 +139,7 @@ def _quantity_before(amount: StatedAmount, facts: RequestFacts, robot: RobotProf
     """Return the one quantity named in the few words before a number; empty if not unique."""
     words: list[str] = []
     for token in reversed(facts.tokens[max(0, amount.index - 7) : amount.index]):
-        if token.sentence != amount.sentence or token.text in ("if", "when", "where", "or", "and", ",", "unless"):
+        if token.sentence != amount.sentence or token.text in _CLAUSES:
             break
         words.insert(0, token.text)
     text = f" {' '.join(words)} "

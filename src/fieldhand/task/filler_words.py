@@ -23,7 +23,7 @@ FUNCTION_WORDS = _words(
     a about also am an and are as at be been being but by can could did do does for from had has have he her here
     him i in into is it its let may me might must my of on onto or our shall she should so than that the their
     them then there these they this those to too us was we were which who will with would you your
-    canst couldst dost doth hast hath shalt shouldst thee thine thou thy unto wouldst ye
+    plus canst couldst dost doth hast hath shalt shouldst thee thine thou thy unto wouldst ye
     """
 )
 #: Courtesies.

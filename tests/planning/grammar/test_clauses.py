@@ -388,7 +388,7 @@ PLANNED = [
     (
         "husky",
         "Photograph all Nonpareils older than 10 years, and measure CO2 at those with yellow leaves.",
-        "for Where(age_years, gt, 10, of Where(variety, eq, Nonpareil)): [picture]; for Where(leaf_color, eq, yellow): [co2]",
+        "for Where(age_years, gt, 10, of Where(variety, eq, Nonpareil)): [picture]; for Where(leaf_color, eq, yellow, of Where(age_years, gt, 10, of Where(variety, eq, Nonpareil))): [co2]",
     ),
     (
         "husky",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -123,7 +123,7 @@ def _lexicon_of(robot: RobotProfile, site: Site) -> Lexicon:
             if phrase in own and own[phrase].kind == "ATTR":
                 attributes[phrase] = own[phrase]
             own[phrase] = entry
-    odd = {"".join(split(tree)): tree for tree in site.by_id if not tree.isdigit()}
+    odd = {spelt(split(tree)): tree for tree in site.by_id if not tree.isdigit()}
     lexicon = Lexicon(own=own, trees=odd, site=site)
     short = {
         (word,): value
@@ -132,12 +132,21 @@ def _lexicon_of(robot: RobotProfile, site: Site) -> Lexicon:
     }
     own |= {phrase: NameEntry(kind="ATTRVAL", value=(value,)) for phrase, value in short.items()}
     beside: dict[Phrase, tuple[NameEntry, ...]] = {}
+    for phrase, entry in site_entries(site):
+        shared = shared_vocabulary().get(phrase)
+        if shared is not None and shared.kind == "UNIT" and entry.kind == "ZONE":
+            beside[phrase] = (entry,)  # "the yard"
     for phrase, entry in (*plant_entries(site, rows_too), *short_names(site)):
         shared = shared_vocabulary().get(phrase)
         is_plant = shared is not None and shared.kind == "TREE"  # a file that says of each vine that it is one
         if not is_plant and entry != own.get(phrase) and entry not in beside.get(phrase, ()):
             beside[phrase] = (*beside.get(phrase, ()), entry)
     return Lexicon(own=own, trees=odd, site=site, attributes=attributes, beside=beside)
+
+
+def spelt(parts: Sequence[str]) -> str:
+    """Return a name as words of a request spell it: together, but numbers apart, since "1-8" is not the number 18."""
+    return ("-" if all(part.isdigit() for part in parts) else "").join(parts)
 
 
 def _spelt(name: str) -> str:

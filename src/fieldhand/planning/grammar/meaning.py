@@ -49,6 +49,8 @@ UNKNOWN_THINGS = frozenset({LAST_THING, LAST_THINGS, UNSAID_THING})
 SAME_VALUE = "="
 #: Value of a parameter of which only is said that it is little or much ("not too much").
 OPEN_VALUE = "?"
+#: Maximum number of laps around an area.
+MOST_LAPS = 100
 #: Seconds between captures that are made every so often, which it does not say.
 NOW_AND_THEN_S = 1e-3
 #: Rows that a command does not name ("the usual rows"), for which the dialogue asks.
@@ -122,7 +124,7 @@ class Likewise:
             the lower or the higher mean (``lt`` or ``gt`` as ``side``); empty if it is of the kind of the one before.
         number: Which one of several, from 1 on; -1 for the last.
         side: Side of the compass; empty for the opposite side.
-        holds: True if the places are inside it.
+        holds: True if the places are inside it; of ``those``, if the phrase describes them.
         of_number: Number of those of which it is one, if the phrase says it ("the last of the four").
     """
 
@@ -181,8 +183,13 @@ class PlaceMeaning:
 
     @property
     def refers_back(self) -> bool:
-        """True if only places named before tell which ones are meant; "the oldest one" may be that of all."""
-        return self.like is not None and self.like.kind != "ranked"
+        """True if only places named before tell which ones are meant; "the oldest one" may be that of all.
+
+        "Those with mildew" may be all that there are, too.
+        """
+        if self.like is None or (self.like.kind == "those" and self.like.holds):
+            return False
+        return self.like.kind != "ranked"
 
     def with_tokens(self, used: int) -> PlaceMeaning:
         """Return the meaning of a phrase of these tokens."""
@@ -430,9 +437,15 @@ class StopCommand:
 
 @dataclass(frozen=True, slots=True)
 class LimitClause:
-    """A limit on distance, time or battery; with ``keep`` the amount that must be left, with ``back`` on the return.
+    """A limit on distance, time or battery.
 
-    With ``later`` it may be when the work begins as well ("in two hours").
+    Attributes:
+        amount: Largest amount; with ``keep`` the amount that must be left.
+        keep: True for an amount that must be left.
+        used: Tokens of the phrase.
+        back: True for an amount that must be left on the return.
+        later: True if it may be when the work begins as well ("in two hours").
+        until: True if the work goes on until so much is left ("until the battery is at 40 %").
     """
 
     amount: Amount
@@ -440,6 +453,7 @@ class LimitClause:
     used: int
     back: bool = False
     later: bool = False
+    until: bool = False
 
 
 #: Quantity of a test of the battery's charge.
@@ -629,10 +643,12 @@ class Allowed:
     Attributes:
         used: Tokens of the phrase.
         unsaid: True if the phrase does not say that the budget decides ("if possible").
+        adds: True if it is about what was added last ("and the bank too, if there is time").
     """
 
     used: int
     unsaid: bool = False
+    adds: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol, TypeVar
 
-from fieldhand.planning.english.lexicon import CODE, Lexicon
+from fieldhand.planning.english.lexicon import CODE, Lexicon, spelt
 from fieldhand.planning.english.naming import NameEntry, Phrase, split
 from fieldhand.planning.english.numbers import spelt_numbers
 from fieldhand.planning.english.tokens import Word
@@ -262,7 +262,7 @@ def _spelt_out(words: Sequence[Word], start: int) -> Iterator[PhraseEdge]:
 def _names(words: Sequence[Word], start: int, phrases: Phrases) -> Iterator[PhraseEdge]:
     """Names of trees, rows and blocks that begin at a word."""
     lexicon = phrases.lexicon
-    spelt = ""
+    together: list[str] = []
     if words[start].kind == "dash":
         return
     for end in range(start + 1, min(start + 5, len(words) + 1)):
@@ -272,16 +272,17 @@ def _names(words: Sequence[Word], start: int, phrases: Phrases) -> Iterator[Phra
         if word.kind == "dash":
             continue  # a dash is part of a name between its words only: "N100-N120" holds two names
         possessive = _POSSESSIVE.search(word.text)
-        spelt += "".join(split(word.text[: possessive.start()] if possessive else word.text))
-        tree = lexicon.trees.get(spelt) or (_missing_tree(word, phrases) if end == start + 1 else None)
+        together += split(word.text[: possessive.start()] if possessive else word.text)
+        written = "".join(together)
+        tree = lexicon.trees.get(spelt(together)) or (_missing_tree(word, phrases) if end == start + 1 else None)
         for kind, name in (
             ("TREEID", tree),
-            ("ROWNAME", lexicon.row_names.get(spelt)),
-            ("BLOCKNAME", lexicon.block_names.get(spelt)),
+            ("ROWNAME", lexicon.row_names.get(written)),
+            ("BLOCKNAME", lexicon.block_names.get(written)),
         ):
             if name is not None and not (end == start + 1 and _is_article(word, name, phrases)):
                 cost = _ALSO_A_ZONE_COST if kind == "BLOCKNAME" and lexicon.is_zone(name) else _WORD_COST
-                yield _edge(f"{kind}POSS" if possessive else kind, start, end, Lex(name, False, spelt), cost)
+                yield _edge(f"{kind}POSS" if possessive else kind, start, end, Lex(name, False, written), cost)
         if possessive:
             break
     for kind, name in lexicon.site.marker_names:

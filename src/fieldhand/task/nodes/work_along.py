@@ -108,6 +108,11 @@ class WorkAlong(PlanNode):
         return self.mode in ("area", "perimeter")
 
     @property
+    def goes_around(self) -> bool:
+        """Return True for laps around what the selector names."""
+        return self.mode == "perimeter"
+
+    @property
     def selector(self) -> Selector:
         return self.along
 

@@ -580,6 +580,12 @@ def if_it_fits(used: int, word: Lex | None = None) -> Allowed:
     return Allowed(used, unsaid=word is not None and "unsaid_budget" in word.features)
 
 
+@construction("allow: ALSO [COMMA] one=allow", cost=-1.0)
+def added_if_it_fits(one: Allowed, used: int) -> Allowed:
+    """Compose "(and the bank) too, if there is time"; it costs less than a word that is left out."""
+    return replace(one, used=used, adds=True)
+
+
 @construction("means: first=means AND second=means", cost=0.1)
 def both_means(first: str, second: str) -> str:
     """Compose "time and charge"."""
@@ -855,11 +861,14 @@ def group(every: Lex | None = None, none: Lex | None = None, n: int = 0, bound: 
     "tests: of=group noun=NOUN [READING] [IS] test=predicate",
     "tests: AT of=group [COMMA] test=test",
     "tests: test=test AT of=group",
-    "tests: test=predicate IS of=group",
+    "tests: test=predicate IS behind=group",
     cost=0.2,
 )
-def of_several(test: Test, of: OfLast, noun: Lex | None = None) -> AllTests | None:
+def of_several(test: Test, of: OfLast = "", noun: Lex | None = None, behind: OfLast | None = None) -> AllTests | None:
     """Compose "both are low", "at one of them it is low", "neither is low" and "at least two of them are low"."""
+    if isinstance(behind, HowMany):
+        return None  # "(at least two) are above 35"
+    of = of if behind is None else behind
     quantities = {test.quantity} if noun is None else set(noun.value.quantities)
     if len(quantities) != 1 or test.place is not None:
         return None

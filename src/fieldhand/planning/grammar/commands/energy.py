@@ -247,6 +247,8 @@ def battery_for(time: Amount, used: int, check: Lex | None = None) -> LimitClaus
 @construction(
     "test: [DET] BATTERY [IS] check=CMP level=amount",
     "test: [DET] BATTERY [IS] check=CMP level=amount of_what",
+    "test: THEREIS check=CMP level=amount [of_what] LEFT",
+    "test: THEREIS check=CMP level=amount of_what",
     cost=1.0,
 )
 def battery_test(check: Lex, level: Amount) -> Test | None:

@@ -21,13 +21,20 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
     Said,
 )
-from fieldhand.planning.grammar.places.exceptions import drawn_from, except_for, except_positions
+from fieldhand.planning.grammar.places.exceptions import (
+    both_out,
+    drawn_from,
+    each_of_kind,
+    except_for,
+    except_positions,
+)
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.grammar.places.planted_rows import rows_out_of
 from fieldhand.planning.grammar.places.points import outside_zones
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
     are_rows,
+    as_excluding,
     as_half,
     as_rows,
     as_zone,
@@ -70,16 +77,22 @@ def place_kept_out(place: PlaceMeaning) -> Excluded | None:
 
 
 @construction(
+    "kept_outs: first=kept_out COMMA second=kept_out", "kept_outs: first=kept_outs COMMA second=kept_out",
     "kept_out: first=kept_out [COMMA] OR second=kept_out", "kept_out: first=kept_out [COMMA] NOR second=kept_out",
+    "kept_out: first=kept_outs [COMMA] OR second=kept_out", "kept_out: first=kept_outs [COMMA] NOR second=kept_out",
     cost=0.1,
 )  # fmt: skip
 def both_kept_out(first: Excluded, second: Excluded) -> Excluded | None:
     """Compose "the yellow trees or the old ones" of "don't do": both are left out."""
-    one, other = first.place, second.place
-    if one is None or other is None or one.like is not None or other.like is not None:
-        return None
-    parts = s.UnionOf(parts=(*one.selector.members, *other.selector.members))
-    return Excluded(PlaceMeaning(parts, "area" if one.shape == other.shape == "area" else "several"))
+    both = None if first.place is None or second.place is None else both_out(first.place, second.place)
+    return None if both is None else Excluded(both)
+
+
+@construction("kept_out: first=kept_outs [COMMA] AND second=kept_out", cost=-0.3)
+@construction("kept_out: first=kept_out AND second=kept_out", cost=0.1)
+def all_kept_out(first: Excluded, second: Excluded) -> Excluded | None:
+    """Compose "the carrots and bed 4" of "skip": each of them is left out."""
+    return both_kept_out(first, second)
 
 
 @construction("kept_out: out=kept_out ITSELF", cost=0.1)
@@ -92,6 +105,14 @@ def themselves_kept_out(out: Excluded) -> Excluded:
 def area_kept_out(where: s.Selector) -> Excluded:
     """Compose "in the wet corner" of "..., except in the wet corner"."""
     return Excluded(PlaceMeaning(where, "area"))
+
+
+@construction(
+    "kept_out: at=row_ends", "kept_out: [DET] TREE AT at=row_ends", "kept_out: DET [ONE] AT at=row_ends", cost=0.2
+)
+def row_ends_kept_out(at: s.Selector) -> Excluded:
+    """Compose "the plants at the row ends" of "not from the plants at the row ends"."""
+    return Excluded(PlaceMeaning(at, "several"))
 
 
 @construction("kept_out: [DET] value=ATTRVAL ONE", cost=0.2)
@@ -135,7 +156,7 @@ def any_there_kept_out(where: s.Selector, word: Lex | None = None) -> Excluded |
 
 @construction(
     "excluded: LEAVEOUT out=kept_out [ATALL]",
-    "excluded: EXCEPT out=kept_out",
+    "excluded: but=EXCEPT out=kept_out",
     "excluded: LEAVE out=kept_out ALONE",
     "excluded: out=kept_out LEFTOUT",
     "excluded: word=NOT out=kept_out",
@@ -146,11 +167,17 @@ def any_there_kept_out(where: s.Selector, word: Lex | None = None) -> Excluded |
     "excluded: WITHOUT verb=ACTV out=kept_out",
     cost=0.2,
 )
-def excluded(out: Excluded, used: int, verb: Lex | None = None, word: Lex | None = None) -> Excluded | None:
+def excluded(
+    out: Excluded, used: int, verb: Lex | None = None, word: Lex | None = None, but: Lex | None = None
+) -> Excluded | None:
     """Compose "skip the yellow trees", "leave the Carmels be" and "tree 4 can be left out"."""
     tokens = tokens_of(used)
     if word is not None and len(tokens) < tokens[-1] - tokens[0] + 1:
         return None  # "not just tree 4"
+    if (word or but) and out.place is not None and as_excluding(out.place.selector) is not None:
+        return None  # "not bed 7 and not the Roma" leaves out both
+    if out.place is not None and (word is not None or (but is not None and "not" in but.text.split())):
+        out = replace(out, place=each_of_kind(out.place))
     if verb is None:
         return replace(out, used=used)
     naming: Naming = verb.value
@@ -239,7 +266,11 @@ def _each_without(
     """
     found = [_without(clause.command, out, site, first=first) for clause in said.clauses]
     named = out.place is None or out.done or any(one.named_tree or as_rows(one) for one in out.place.selector.walk())
-    if named or any(one is not None for one in found):
+    if (
+        named
+        or (out.place is not None and len(out.place.selector.members) > 1)
+        or any(one is not None for one in found)
+    ):
         return found
     return [_without(clause.command, out, site, first=first, some=False) for clause in said.clauses]
 
@@ -290,6 +321,8 @@ def _without(
     if any(part.uses_records for part in out.place.selector.walk()):
         left_out, among, some = set(), among or set(), False  # what was done before may be known later only
     if among is None or left_out is None or (some and not among & left_out):
+        return None
+    if some and not all((ids_of(part, site) or among) & among for part in out.place.selector.members):
         return None
     if first and whole.count is not None and (chosen := getattr(whole.selector, "of", None)) is not None:
         others = s.Excluding(places=out.place.selector, of=chosen)  # "the three oldest trees" of those that are left

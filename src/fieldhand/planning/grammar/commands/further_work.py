@@ -94,7 +94,6 @@ def further_so(
 
 
 @construction("said: before=said joint=joint one=further", cost=0.3, given=("robot", "site"))
-@construction("said: before=said joint=joint one=further ADDS", cost=0.3, given=("robot", "site"))
 def worked_likewise(
     before: Said, joint: Connective, one: FurtherGround, used: int, robot: RobotProfile, site: Site
 ) -> list[Said] | None:
@@ -131,11 +130,7 @@ def worked_likewise(
     return found or None
 
 
-@construction(
-    "said: before=said joint=joint case=allow [COMMA] [ADDS] one=further [ADDS]",
-    "said: before=said joint=joint [ADDS] one=further ADDS [COMMA] case=allow",
-    cost=0.2, given=("robot", "site"),
-)  # fmt: skip
+@construction("said: before=said joint=joint case=allow [COMMA] one=further", cost=0.2, given=("robot", "site"))
 def worked_if_it_fits(
     before: Said, joint: Connective, case: Allowed, one: FurtherGround, used: int, robot: RobotProfile, site: Site
 ) -> list[Said] | None:

@@ -14,6 +14,7 @@ from fieldhand.planning.grammar.commands.clauses import Adjunct
 from fieldhand.planning.grammar.commands.waits import LONGEST_WAIT_S
 from fieldhand.planning.grammar.commands.working import Tract
 from fieldhand.planning.grammar.meaning import (
+    MOST_LAPS,
     NOW_AND_THEN_S,
     THAT_GROUND,
     Amount,
@@ -36,8 +37,8 @@ construction = GRAMMAR.construction
 _THIN, _NEARLY = 0.1, 0.8
 #: Half of the greatest width of a fence or wall in metres.
 _HALF_A_FENCE_M = 0.4
-#: Maximum number of laps, and of captures with a rest between them.
-_MOST_LAPS, _MOST_RESTED = 100, 50
+#: Maximum number of captures with a rest between them.
+_MOST_RESTED = 50
 
 #: Difference of a width from that of so many laps, in laps, that is none.
 _SAME_WIDTH = 0.05
@@ -264,7 +265,7 @@ def on_the_round(where: s.Selector | None = None, it: Lex | None = None) -> tupl
 
 def _driven(where: s.Selector, times: int, used: int) -> WorkCommand | None:
     """Return a drive around an area."""
-    if not 1 <= times <= _MOST_LAPS:
+    if not 1 <= times <= MOST_LAPS:
         return None
     return WorkCommand(action="", along=where, mode="perimeter", used=used, laps=times)
 
@@ -272,7 +273,7 @@ def _driven(where: s.Selector, times: int, used: int) -> WorkCommand | None:
 @construction("work: one=work [COMMA] times=often", cost=0.1)
 def worked_so_often(one: WorkCommand, times: int, used: int) -> WorkCommand | None:
     """Compose "patrol the boundary five times"."""
-    if one.laps != 1 or not 1 <= times <= _MOST_LAPS or one.along is None:
+    if one.laps != 1 or not 1 <= times <= MOST_LAPS or one.along is None:
         return None
     return replace(one, laps=times, used=used)
 

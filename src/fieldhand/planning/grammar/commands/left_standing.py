@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from fieldhand.places import selectors as s
-from fieldhand.planning.grammar.chart import Grammar
+from fieldhand.planning.grammar.chart import Grammar, tokens_of
 from fieldhand.planning.grammar.meaning import CaptureCommand, Command, Connective, LinkedCommand, Said, WorkCommand
 from fieldhand.planning.grammar.places.planted_rows import rows_out_of
 from fieldhand.planning.grammar.words import Lex
@@ -78,17 +78,22 @@ def both_spared(first: s.Selector, second: s.Selector) -> s.Selector | None:
     "left_standing: LEAVE where=spared word=UNCUT",
     "left_standing: LEAVEOUT where=spared",
     "left_standing: EXCEPT where=spared",
-    "left_standing: BUT [NOT] where=spared",
+    "left_standing: but=BUT [NOT] where=spared",
     "left_standing: [BUT] NEITHER where=spared",
     "left_standing: WITHOUT where=spared",
-    "left_standing: NOT where=spared",
+    "left_standing: but=NOT where=spared",
     "left_standing: where=spared LEFTOUT",
     "left_standing: WITHOUT verb=WORKV where=spared",
     "left_standing: WITHOUT TOUCHING where=spared",
     cost=0.2,
 )
-def left_standing(where: s.Selector, used: int, word: Lex | None = None, verb: Lex | None = None) -> LeftStanding:
-    """Compose "leave the wet corner uncut", "skip row 5" and "don't mow the orchids"."""
+def left_standing(
+    where: s.Selector, used: int, word: Lex | None = None, verb: Lex | None = None, but: Lex | None = None
+) -> LeftStanding | None:
+    """Compose "leave the wet corner uncut", "skip row 5" and "don't mow the orchids"; not "but only row 5"."""
+    tokens = tokens_of(used)
+    if but is not None and len(tokens) < tokens[-1] - tokens[0] + 1:
+        return None
     return LeftStanding(
         where,
         used,

@@ -114,6 +114,7 @@ def less_than(most: Amount, used: int) -> LimitClause | None:
 
 @construction(
     "limit: said=limit [COMMA] [AND] NOTMORE",
+    "limit: said=limit [COMMA] [AND] WAYBACKTOO",
     "limit: [subject] [MUST] BEDONE said=limit",
     "limit: PROVIDED said=limit",
     cost=0.2,
@@ -263,7 +264,6 @@ def it_is_low(least: Amount, check: Lex | None = None) -> Amount | None:
     "limit: least=at_least LEFT [word=THEN]",
     "limit: least=battery_at_least [LEFT] [word=THEN]",
     "limit: BEFORE least=low_battery [LEFT]",
-    "limit: UNTIL least=low_battery [LEFT]",
     "limit: STOP in_case least=low_battery",
     "limit: STOP AT least=reserve",
     "limit: [DET] BATTERY STAYSOVER least=amount",
@@ -277,6 +277,29 @@ def keep(least: Amount, used: int, word: Lex | None = None) -> LimitClause | Non
     if least.unit != "percent" or (word is not None and "when_done" not in word.features):
         return None
     return LimitClause(least, True, used)
+
+
+@construction(
+    "battery_over: [DET] BATTERY [IS] check=CMP least=amount", "battery_over: [DET] BATTERY STAYSOVER least=amount",
+    "battery_over: THEREIS check=CMP least=amount [of_what] LEFT",
+    "battery_over: THEREIS check=CMP least=amount of_what",
+    cost=0.1,
+)  # fmt: skip
+def battery_over(least: Amount, check: Lex | None = None) -> Amount | None:
+    """Compose "the battery is above 30 %"."""
+    return least if least.unit == "percent" and (check is None or check.value[0] in ("gt", "ge")) else None
+
+
+@construction("until_low: UNTIL least=low_battery [LEFT]", "until_low: STAYING least=battery_over", cost=0.1)
+def until_low(least: Amount) -> Amount:
+    """Compose "until the battery is at 40 %" and "as long as the battery is above 40 %"."""
+    return least
+
+
+@construction("limit: least=until_low", cost=0.2)
+def on_until_low(least: Amount, used: int) -> LimitClause:
+    """Compose "until the battery is at 40 %" behind what is done until then."""
+    return LimitClause(least, True, used, until=True)
 
 
 @construction("limit: WITH least=amount of_what", "limit: WITH least=share", cost=0.4)

@@ -67,6 +67,7 @@ def value() -> Finding:
 
 @construction(
     "finding: [DET] [n=count] FIGURES",
+    "finding: EACH [OF] [DET] [n=count] FIGURES",
     "finding: [DET] [n=count] noun=NOUN FIGURES",
     "finding: [DET] [n=count] FIGURES OF [DET] noun=NOUN",
     cost=0.2,

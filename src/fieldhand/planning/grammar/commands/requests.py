@@ -656,6 +656,37 @@ def also_there(before: Said, one: Lead, used: int) -> Said | None:
     return Said((*before.clauses, LinkedCommand(None, replace(one, used=used & ~before.used))))
 
 
+@construction("said: before=said [COMMA] times=often case=allow", cost=-3.0)
+def more_often_if_it_fits(before: Said, times: int, case: Allowed, used: int) -> Said | None:
+    """Compose "(film the pond,) twice if the battery allows": once in any case."""
+    last = before.clauses[-1].command
+    own = used & ~before.used & ~case.used
+    if (
+        times < 2
+        or not isinstance(last, WorkCommand | CaptureCommand)
+        or (isinstance(last, CaptureCommand) and last.times > 1)
+    ):
+        return None
+    if isinstance(last, WorkCommand):
+        again: Command | None = None if last.laps > 1 or last.rest_s else replace(last, laps=times - 1, used=own)
+    else:
+        again = None if last.place is None else replace(last, times=times - 1, used=own)
+    fits = LinkedCommand(Connective(False, False, 0, both=True), case)
+    return None if again is None else Said((*before.clauses, fits, LinkedCommand(None, again)))
+
+
+@construction("said: before=said joint=joint one=lead case=allow", cost=-3.0)
+@construction("said: before=said joint=joint also=ALSO one=lead [COMMA] case=allow", cost=-4.0)
+def added_there_if_it_fits(
+    before: Said, joint: Connective, one: Lead, case: Allowed, also: Lex | None = None
+) -> Said | None:
+    """Compose "(mow the slope,) and the bank too, if there is time", of which only the bank may be left out."""
+    if not (case.adds or also) or joint.full or joint.purpose or joint.precedes:
+        return None
+    fits = LinkedCommand(replace(joint, both=True), case)
+    return Said((*before.clauses, fits, LinkedCommand(None, one)))
+
+
 @construction(
     "said: before=said joint=joint STOP AND way=home ASSOONAS tests=tests",
     "said: before=said joint=joint STOP AND way=home WHERE tests=tests",

@@ -94,8 +94,8 @@ def to_and_fro(places: tuple[PlaceMeaning, PlaceMeaning], used: int, verb: Lex |
     return Shuttle(places, used) if verb is None or "patrols" in verb.features else None
 
 
-@construction("shuttle: one=shuttle [COMMA] UNTIL low=low_battery", cost=0.1)
-@construction("shuttle: [KEEPON] UNTIL low=low_battery [COMMA] one=shuttle", cost=0.1)
+@construction("shuttle: one=shuttle [COMMA] low=until_low", cost=0.1)
+@construction("shuttle: [KEEPON] low=until_low [COMMA] one=shuttle", cost=0.1)
 def shuttle_until_low(one: Shuttle, low: Amount, used: int) -> Shuttle | None:
     """Compose "back and forth between the gates until the battery is down to 40 %"."""
     known = one.battery is None and not one.times

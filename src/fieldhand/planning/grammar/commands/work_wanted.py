@@ -59,6 +59,7 @@ def work_name(verb: Lex) -> Lex:
     "work: verb=work_name SHOULD where=tract",
     "work: CAUSE where=tract [TOBE] verb=WORKV",
     "work: GERUNDASK verb=work_name where=tract",
+    "work: KEEPAT verb=work_name where=tract",
     "work: ASKSIF where=tract BEINF verb=WORKV",
     "work: NICEIF where=tract WERE verb=WORKV",
     "work: CAUSE [DET] verb=work_name TAKE where=tract",

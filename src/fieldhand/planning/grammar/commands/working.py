@@ -105,6 +105,18 @@ def without_rows(part: Tract, out: s.Selector) -> Tract | None:
 
 
 @construction(
+    "tract: whole=tract [COMMA] BUT ONLY rows=rows", "tract: whole=tract COMMA ONLY rows=rows",
+    "tract: whole=tract [COMMA] BUT rows=rows ONLY", cost=-1.0, given=("site",),
+)  # fmt: skip
+def only_some_rows(whole: Tract, rows: s.Selector, site: Site) -> Tract | None:
+    """Compose "rows 2 to 8, but only row 5"."""
+    if whole.optional or not are_rows(rows) or not are_rows(whole.selector):
+        return None
+    own, among = ids_of(rows, site), ids_of(whole.selector, site)
+    return replace(whole, selector=rows) if own and among and own < among else None
+
+
+@construction(
     "tract: where=region", "tract: in_ where=region", "tract: where=crop_area", "tract: ALONG where=crop_area", cost=0.4
 )
 def ground(where: s.Selector) -> Tract | None:

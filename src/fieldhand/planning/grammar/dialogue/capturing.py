@@ -7,6 +7,7 @@ from dataclasses import replace
 from fieldhand.language import message
 from fieldhand.language.words import say_action
 from fieldhand.places import selectors as s
+from fieldhand.planning.english.plant_words import is_unmarked
 from fieldhand.planning.grammar.dialogue.driving import (
     drive,
     enter,
@@ -85,12 +86,14 @@ from fieldhand.planning.selections import (
     as_every_nth,
     as_in_row,
     as_some,
+    as_where,
     as_zone,
     chooses_from_trees,
     counts_in_row,
     drawn_like,
     from_nearest_row,
     is_across,
+    is_by_attribute,
     is_end_of_site,
     is_one_row,
     is_row_of_place,
@@ -138,6 +141,9 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
     there = command.place or (state.lead.place if state.lead is not None else None)
     of_all = there is not None and there.shape == "area" and not bare_points(there.selector, setting.site, 1)
     if same and command.spacing is None and (of_all or (command.place is not None and command.place.shape == "area")):
+        if command.place is not None and command.place.shape == "area" and command.place.per is None:
+            if command.times == 1 and not any(one.more for one in command.things):
+                return repeated_in(setting, state, command.place.selector, command.used)
         raise NotComposed(message("at every tree, or at how many?", context="fault"))
     state, command = _with_unsaid_again(setting, state, command)
     state, things = named_things(setting, state, command)
@@ -644,6 +650,7 @@ def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
         return state
     if lead.relation == "topic":
         return state
+    lead = _all_of_kind(state, lead)
     if lead.relation == "" and lead.place.selector.named_marker:
         raise NotComposed(message("it is not clear from which place that is measured", context="fault"))
     part = lead.place.selector == s.Trees() or specifies_part(lead.place.selector)
@@ -656,24 +663,48 @@ def capture_elided(setting: Setting, state: DialogueState) -> DialogueState:
     if state.where is not None and (mark := landmark_of(state.where.selector, lead.place.selector)) is not None:
         lead = replace(lead, place=replace(lead.place, selector=swapped(lead.place.selector, s.Here(), mark)))
     things = state.things
+    follows = state.sequenced or bool(state.scope)
+    of_each = follows and _is_kind(state.where) and all(one.count is None for one in things)  # "the kale, then bed 3"
     if lead.place.shape != "area":
         things = tuple(replace(thing, count=None) for thing in things)
     elif bare_points(lead.place.selector, setting.site, 1) is not None and all(
         one.count in (None, 1) for one in things
     ):
         things = tuple(replace(thing, count=None) for thing in things)  # "at the trough, at the tap and at the heap"
-    elif not (_are_of_each(things) and (state.where is None or _is_area(state.where))) and (
-        lead.relation == "" or not (state.where is None or _is_area(state.where) or are_rows(state.where.selector))
+    elif (
+        not of_each
+        and not (_are_of_each(things) and (state.where is None or _is_area(state.where)))
+        and (
+            lead.relation == "" or not (state.where is None or _is_area(state.where) or are_rows(state.where.selector))
+        )
     ):
         raise NotComposed(message("at every tree, or at how many?", context="fault"))
-    of_each = lead.place.shape == "area" and state.where is not None and state.where.shape == "several"
+    of_each = of_each or (state.where is not None and state.where.shape == "several")
+    of_each = of_each and lead.place.shape == "area"
     again = CaptureCommand(things, lead.place, lead.used, relation="of" if of_each else lead.relation)
     return capture(setting, replace(state, lead=None), again)
 
 
+def _all_of_kind(state: DialogueState, lead: Lead) -> Lead:
+    """Return "(photograph the kale, then) the basil" as all of it, like the kind before, though it may be one plant."""
+    some = as_some(lead.place.selector)
+    whole = lead.place.shape == "area"
+    kind = as_where(lead.place.selector) if whole else None if some is None or some.count != 1 else as_where(some.of)
+    before = state.where
+    if kind is None or before is None or before.shape != "several" or not is_by_attribute(before.selector):
+        return lead
+    marked = not isinstance(kind.value, str) or not is_unmarked(kind.attribute, kind.value)
+    if before.count is not None or (marked and not whole):
+        return lead
+    return replace(lead, place=replace(lead.place, selector=kind, shape="several", count=None))
+
+
 def _work_elided(setting: Setting, state: DialogueState, lead: Lead) -> DialogueState | None:
     """Return the state after the last work was done at another place, too ("mow the slope, then the wet corner")."""
-    last = state.block.steps[-1].work if state.block.steps else None
+    before = state.block.steps
+    if not before and state.scope and node_at(state.plan, state.scope[:-1]).is_optional_step:
+        before = block_at(state.plan, state.scope[:-2]).steps[: int(state.scope[-2])]  # "and the bank too, if it fits"
+    last = before[-1].work if before else None
     place = lead.place
     if last is None or not last.action or place.shape != "area" or place.per is not None or lead.relation == "topic":
         return None
@@ -693,6 +724,14 @@ def _is_area(place: PlaceMeaning | None) -> bool:
     """Return True for all trees of areas; "the yellow trees in row 1, then in row 3" means the yellow ones there."""
     parts = () if place is None else tuple(place.selector.walk())
     return bool(parts) and all(isinstance(part, (*AREAS, s.UnionOf, s.Trees, s.Ordered)) for part in parts)
+
+
+def _is_kind(place: PlaceMeaning | None) -> bool:
+    """Return True for all plants of a description, wherever they grow."""
+    if place is None or place.shape != "several" or place.count is not None or place.optional:
+        return False
+    parts = tuple(place.selector.walk())
+    return is_by_attribute(place.selector) and not any(isinstance(part, AREAS) for part in parts)
 
 
 def _are_of_each(things: tuple[Thing, ...]) -> bool:

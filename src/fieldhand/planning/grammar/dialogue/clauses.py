@@ -37,7 +37,8 @@ from fieldhand.planning.grammar.dialogue.driving import (
     with_order_kept,
     without_home,
 )
-from fieldhand.planning.grammar.dialogue.energy import recharged, reserve_in_percent
+from fieldhand.planning.grammar.dialogue.energy import done_until_low, recharged, reserve_in_percent
+from fieldhand.planning.grammar.dialogue.exceptional import without_exceptional
 from fieldhand.planning.grammar.dialogue.faults import Fork
 from fieldhand.planning.grammar.dialogue.fitting import in_area, is_spoken_of
 from fieldhand.planning.grammar.dialogue.fragments import assembled
@@ -202,6 +203,8 @@ def _ended(setting: Setting, state: DialogueState) -> DialogueState:
         if loop is not None and has_open_number(loop.select):
             said = setting.request.rstrip(" .")
             raise OpenQuestion(message("'{said}': at how many places?", context="question", said=said))
+        if node.is_series and any(step.work is not None and step.work.goes_around for step in node.children):
+            _require_no_end(state)
         if node.is_series and any(step.ends_plan for step in node.children[:-1]):
             raise NotComposed(message("something follows the end of the mission", context="fault"))
         if node.is_choice and EMPTY in node.children:
@@ -280,6 +283,16 @@ def _ended_in_case(state: DialogueState) -> DialogueState:
     return with_assumption(state, sentence)
 
 
+def _require_no_end(state: DialogueState) -> None:
+    """Refuse the end of laps that is said before anything is done ("until the battery is at 40 %, mow the bank, ...").
+
+    Raises:
+        NotComposed: It is not clear what goes on until then.
+    """
+    if any(limit.until for limit in state.limits):
+        raise NotComposed(message("it is not clear what ends then", context="fault"))
+
+
 def _visits_open_number(loop: p.ForEach) -> bool:
     """Return True for visits of "different trees" of which nothing says how many."""
     unbounded = not loop.optional and loop.at_most is None and loop.until is None
@@ -316,6 +329,8 @@ def _read(
         raise NotComposed(message("it is not clear what is done after each of them", context="fault"))
     if state.plan.steps and isinstance(command, CaptureCommand | DriveCommand | Lead | When | Again):
         state = driven_home(setting, state)
+    if joint is not None and joint.then and isinstance(command, CaptureCommand | WorkCommand):
+        state = _behind_optional_or_in_it(setting, state, command)
     elided = state.lead is not None and state.lead.relation == "of" and isinstance(command, CaptureCommand)
     own_place = _has_own_place(command) or elided
     own_place = own_place or (isinstance(command, Again) and command.whole)
@@ -363,6 +378,8 @@ def _read(
                 command = replace(command, relation="at")  # "a second reading whenever the first is below 400 ppm"
             if command.relation == "bare" and (not state.open or (again and state.choice is None)):
                 raise NotComposed(message("it does not say what to do with it", context="fault"))
+            meant = replace(command, things=meant_things(setting, state, command.things))
+            state = without_exceptional(setting, state, meant, joint)
             return replace(capture(setting, state, command), asked_for=command.of)
         case DriveCommand():
             if command.picks and not any(isinstance(one.command, CaptureCommand | CaptureWhere) for one in following):
@@ -375,6 +392,8 @@ def _read(
                 state = driven_to_ground(setting, state)
             if following and _chooses_among(command, following[0].command):
                 command = replace(command, place=replace(command.place, shape="area"))
+            if joint is not None and joint.then and not any(_works_elsewhere(one.command) for one in following):
+                state = _behind_optional_step(state)
             driven = drive(setting, state, command)
             if command.pace is not None:
                 driven = paced_drive(setting, state, driven, command.pace)
@@ -463,6 +482,31 @@ def _unless_ended(
     said = replace(choice, said=(*choice.said, *setting.spans_of(command.used)))
     plan = with_node(state.plan, path, said)
     return replace(state, plan=plan, scope=(), loop=None, choice=None, in_case=None)
+
+
+def _behind_optional_or_in_it(
+    setting: Setting, state: DialogueState, command: CaptureCommand | WorkCommand
+) -> DialogueState:
+    """Return the state before work elsewhere that follows an optional step of the same sentence, or belongs to it.
+
+    "Photograph the beans and, if there is time, the kale, then the beetroot" leaves it open; behind "if there is time,
+    photograph the kale, then ..." all of it is optional.
+    """
+    if not _works_elsewhere(command):
+        return state
+    state = capture_elided(setting, state)
+    behind = _behind_optional_step(state)
+    if behind is state or state.commands_in_sentence <= len(state.block.steps):
+        return state
+    return setting.either("in that case only, or in each?", command.used, (behind, state))
+
+
+def _behind_optional_step(state: DialogueState) -> DialogueState:
+    """Return the state behind an optional step, to which a last drive does not belong ("..., then to the charger")."""
+    step = state.scope[:-1]
+    if not step or not node_at(state.plan, step).is_optional_step or not state.block.steps:
+        return state
+    return replace(state, scope=step[:-1], loop=None, captured=None)
 
 
 def _require_apart(clause: LinkedCommand) -> None:
@@ -637,6 +681,8 @@ def _require_other_places(state: DialogueState, place: PlaceMeaning) -> None:
 def _limit(setting: Setting, state: DialogueState, command: LimitClause) -> DialogueState:
     """Return the state after a limit."""
     said = setting.spans_of(command.used)
+    if command.until and (repeated := done_until_low(setting, state, command)) is not None:
+        return repeated
     state, command = reserve_in_percent(setting, state, command)
     state = replace(state, limits=(*state.limits, command), limits_said=(*state.limits_said, said))
     return replace(state, nominal="return_to_start") if command.back and state.nominal is None else state

@@ -20,6 +20,7 @@ from fieldhand.planning.grammar.meaning import (
     Test,
     When,
 )
+from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.selections import are_rows, as_zone, is_description
 
 
@@ -43,11 +44,13 @@ def in_both_cases(setting: Setting, state: DialogueState, clause: LinkedCommand)
             message("it is not clear which of them", context="fault"),
             advice=message("take readings at two places before, and say which of them is meant"),
         )
-    if all(one.single for one in sides):
+    if all(one.single or len(ids_of(one, setting.site) or ()) == 1 for one in sides):
         raise NotComposed(
             message("it is not clear which of them", context="fault")
         )  # that is where a reading is lowest
     first, second = sides
+    if _ground(first) == _ground(second):
+        raise NotComposed(message("it is not clear which of them", context="fault"))
     test = Test(
         "", cast(Any, place.like.side), 0.0, place=PlaceMeaning(first, "several"), of="mean",
         than=Subject(place=PlaceMeaning(second, "several")),

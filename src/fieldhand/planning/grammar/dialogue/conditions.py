@@ -40,6 +40,7 @@ from fieldhand.planning.grammar.dialogue.state import (
 )
 from fieldhand.planning.grammar.dialogue.tested import TREE_TESTS, condition_of, reading_before, readings_at
 from fieldhand.planning.grammar.meaning import (
+    BATTERY_TEST,
     LATEST_READING,
     NTH_READING,
     SAME_THRESHOLD,
@@ -49,12 +50,14 @@ from fieldhand.planning.grammar.meaning import (
     Check,
     Command,
     DriveCommand,
+    Home,
     Lead,
     LinkedCommand,
     Otherwise,
     PassOn,
     PlaceMeaning,
     ReadingQuestion,
+    StopCommand,
     Test,
     Thing,
     UntilCondition,
@@ -174,6 +177,8 @@ def when(setting: Setting, state: DialogueState, command: When, following: Seque
         elif latest:
             ways = [way for way in ways if way != before] or ways
         state = replace(state, captured=setting.either("which reading is tested?", command.used, ways))
+    if all(test.quantity == BATTERY_TEST for test in command.tests.tests):
+        state = _behind_visits(state, following)
     return _choice(setting, state, command, said)
 
 
@@ -472,6 +477,14 @@ def _choice(setting: Setting, state: DialogueState, command: When, said: Spans) 
     state = with_step(replace(state, scope=scope), p.If(id="", condition=condition, then=EMPTY, said=said))
     tested_at = (state.where, state.where_scope)
     return replace(state, scope=(*path, "then"), choice=path, decided=tests, open=True, tested_at=tested_at)
+
+
+def _behind_visits(state: DialogueState, following: Sequence[LinkedCommand]) -> DialogueState:
+    """Return the state in which the battery is tested behind the visits, unless more is done at each of them."""
+    then = following[0].command if following else None
+    at_each = isinstance(then, CaptureCommand) and is_spoken_of(then.place)
+    at_each = at_each or any(isinstance(one.command, StopCommand | PassOn | Home) for one in following)
+    return state if at_each else replace(state, loop=None, captured=None)
 
 
 def _scope_of_test(setting: Setting, state: DialogueState, command: When) -> Path:

@@ -312,6 +312,9 @@ def put_in_order(setting: Setting, state: DialogueState, command: InAnOrder) -> 
         return replace(state, order=command)
     path = state.loop[:-1]
     loop = for_each_at(state.plan, path)
+    actions = [child.act.action for child in loop.body.children if child.act is not None]
+    if command.by == "reverse" and len(set(actions)) < len(actions):  # "then again in the opposite order"
+        raise NotComposed(message("it is not clear in which order", context="fault"))
     return replace(state, plan=with_node(state.plan, path, ordered(setting, loop, command, said)))
 
 

@@ -10,11 +10,13 @@ from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.state import (
     DialogueState,
     NotComposed,
+    OpenQuestion,
     Setting,
     with_assumption,
+    with_last_step,
     with_step,
 )
-from fieldhand.planning.grammar.meaning import Amount, LimitClause, PlaceMeaning, RechargeClause, Test
+from fieldhand.planning.grammar.meaning import MOST_LAPS, Amount, LimitClause, PlaceMeaning, RechargeClause, Test
 from fieldhand.robot.model import RobotProfile
 from fieldhand.task import conditions as c
 from fieldhand.task import plan as p
@@ -54,6 +56,24 @@ def reserve_in_percent(
         time=say_duration(command.amount.number),
     )
     return with_assumption(state, taken), replace(command, amount=Amount(number=percent, unit="percent"))
+
+
+def done_until_low(setting: Setting, state: DialogueState, command: LimitClause) -> DialogueState | None:
+    """Return the state after laps around an area until the battery is low; None behind what ends by itself.
+
+    Raises:
+        OpenQuestion: A capture at one place is to go on, and it does not say how often it is made.
+    """
+    last = state.block.steps[-1] if state.block.steps else None
+    if last is None or state.awaits_command or command.amount.unit != "percent":
+        return None
+    if last.act is not None:
+        raise OpenQuestion(message("How often?", context="question"))
+    if last.work is None or not last.work.goes_around:
+        return None
+    times = last.work.laps if last.work.laps > 1 else MOST_LAPS
+    until, said = BatteryBelow(percent=command.amount.number), setting.spans_of(command.used)
+    return with_last_step(state, p.Repeat(id="", times=times, body=replace(last.work, laps=1), until=until, said=said))
 
 
 def driving_percent(robot: RobotProfile, seconds: float) -> float:

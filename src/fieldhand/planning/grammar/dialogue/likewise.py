@@ -19,16 +19,21 @@ from fieldhand.planning.grammar.meaning import (
     PlaceMeaning,
 )
 from fieldhand.planning.grammar.places.compass import CORNERS, SIDES
+from fieldhand.planning.grammar.places.exceptions import drawn_from
 from fieldhand.planning.grammar.places.groups import kind_in_area
 from fieldhand.planning.grammar.places.likewise import of_other_value
 from fieldhand.planning.grammar.places.numbered import ids_of
+from fieldhand.planning.grammar.places.sampling import bare_points
 from fieldhand.planning.selections import (
+    AREAS,
     anchors,
     are_rows,
+    as_excluding,
     as_in_row,
     as_ordered,
     as_some,
     as_top,
+    as_where,
     as_zone,
     chosen_from,
     counts_in_row,
@@ -38,6 +43,7 @@ from fieldhand.planning.selections import (
     is_one_row,
     named_places,
     over,
+    picked_from,
     side_named,
     swapped,
 )
@@ -61,10 +67,14 @@ def with_known_place(setting: Setting, state: DialogueState, command: Command) -
     if place.shape == "those":
         place = _those_named(setting, state, place, command.used)
     place = _end_of_row_spoken_of(state, _in_row_spoken_of(state, place))
+    place = _middle_of_those(setting, state, place)
     place = _beside_unreached(state, place)
     command = replace(command, place=place)
     if place.beside:
-        return replace(command, place=_beside(setting, state, place, command.used))
+        near = _beside(setting, state, place, command.used)
+        return replace(command, place=replace(near, selector=_of_kind_before(state, near), like=None))
+    if place.like is not None and place.like.kind == "those" and not isinstance(place.selector, AREAS):
+        return replace(command, place=replace(place, selector=_some_of_those(setting, state, place), like=None))
     if isinstance(place.selector, s.Top) and place.like is not None:
         return _best_of_ranked(state, command, place.selector)
     if place.like is not None and place.like.kind == "those":
@@ -79,7 +89,7 @@ def with_known_place(setting: Setting, state: DialogueState, command: Command) -
         one = _nth(state, place.like) if place.like.number else _described(state, place.selector)
         return replace(command, place=replace(place, selector=one, like=None))
     if place.like is not None and place.like.kind == "value":
-        other = _of_another_value(state, place.selector)
+        other = _of_another_value(setting, state, place)
         return replace(command, place=replace(place, selector=other, like=None))
     return command if place.like is None else replace(command, place=_likewise(state, place, place.like))
 
@@ -101,6 +111,44 @@ def _those_named(setting: Setting, state: DialogueState, place: PlaceMeaning, us
         said = setting.quoted(place.tokens or used)
         raise NotComposed(message("'{said}': no such ones were named before", context="fault", said=said))
     return replace(place, selector=s.Trees() if described else place.selector, count=None if numbered else place.count)
+
+
+def _some_of_those(setting: Setting, state: DialogueState, place: PlaceMeaning) -> s.Selector:
+    """Return "those with mildew" and "every third one" as those of the places named last; of all where none were named.
+
+    Raises:
+        NotComposed: None of the places named last are so, or which these are is known only during the mission.
+    """
+    before = state.where
+    if state.lead is not None and state.lead.relation == "":
+        raise NotComposed(message("it is not clear which trees are meant", context="fault"))
+    if state.lead is not None or state.area is not None:
+        return place.selector
+    group = None if before is None or before.selector == s.Trees() else before.selector
+    if group is not None and before is not None and before.shape == "one":
+        group = picked_from(group)  # "the tomato nearest the barn and ... the one farthest from it"
+    if group is None or group == s.Trees():
+        return place.selector
+    there = next((part for part in place.selector.walk() if isinstance(part, AREAS)), None)
+    if there is not None:  # "the tomatoes in bed 7, then the ones in bed 8 over a metre tall"
+        return swapped(place.selector, there, kind_in_area(group, there))
+    if group.relative or drawn_from(group) is not None:
+        raise NotComposed(message("it is not clear which trees are meant", context="fault"))
+    left = as_excluding(group)
+    for one in (group, *(() if left is None else (left.of,))):  # "all courgettes but those with mildew, ... these"
+        some = over(place.selector, one)
+        if ids_of(some, setting.site):
+            return some
+    said = setting.quoted(place.tokens)
+    raise NotComposed(message("'{said}': no such ones were named before", context="fault", said=said))
+
+
+def _of_kind_before(state: DialogueState, place: PlaceMeaning) -> s.Selector:
+    """Return "the one farthest from it" behind "the tomato nearest the barn" as a tomato."""
+    before = state.where
+    kind = None if before is None or before.shape != "one" else picked_from(before.selector)
+    is_pronoun = place.like is not None and place.like.kind == "those"
+    return over(place.selector, kind) if is_pronoun and kind is not None else place.selector
 
 
 def _extreme(state: DialogueState, place: PlaceMeaning, side: str) -> PlaceMeaning:
@@ -164,19 +212,46 @@ def _end_of_row_spoken_of(state: DialogueState, place: PlaceMeaning) -> PlaceMea
     return replace(place, selector=s.Extreme(side=side, of=row))
 
 
-def _of_another_value(state: DialogueState, described: s.Selector) -> s.Selector:
-    """Return the trees named last with another value of their attribute ("the green ones" behind "the yellow trees").
+def _middle_of_those(setting: Setting, state: DialogueState, place: PlaceMeaning) -> PlaceMeaning:
+    """Return "the middle" behind places of one row or zone as its middle, and of the site behind others.
 
     Raises:
-        NotComposed: Their description does not have that attribute.
+        NotComposed: The places before were those of several rows.
+    """
+    before = state.where
+    if place.selector != s.Middle() or place.itself or before is None or before.selector.relative:
+        return place
+    if state.lead is not None or state.area is not None:
+        return place
+    rows = {part for part in before.selector.walk() if are_rows(part)}
+    zones = {zone for part in before.selector.walk() if (zone := str(getattr(part, "zone", "")))}
+    if not rows and len(zones) == 1:
+        ground = s.InZone(zone=zones.pop())
+        return replace(place, selector=bare_points(ground, setting.site, 1) or s.Middle(of=ground))
+    if not rows and not zones:
+        return place
+    row = rows.pop() if rows else None
+    if rows or zones or row is None or not is_one_row(row):
+        raise NotComposed(message("it is not clear which one is meant", context="fault"))
+    return replace(place, selector=s.Middle(of=row))
+
+
+def _of_another_value(setting: Setting, state: DialogueState, place: PlaceMeaning) -> s.Selector:
+    """Return the trees named last with another value of their attribute ("the green ones" behind "the yellow trees").
+
+    Of others it is those that have it: "the grafted ones" behind "the tomatoes".
+
+    Raises:
+        NotComposed: None of them have it.
     """
     if state.where is None and state.lead is None and state.area is None:
-        return described  # "check the covered ones", before which none were named
+        return place.selector  # "check the covered ones", before which none were named
     before = None if state.where is None or state.where.selector.relative else state.where.selector
-    other = None if before is None else of_other_value(before, described)
-    if other is None:
+    other = None if before is None else of_other_value(before, place.selector)
+    described = as_where(place.selector)
+    if other is None and (before is None or described is None or not isinstance(described.value, bool)):
         raise NotComposed(message("it is not clear which trees are meant", context="fault"))
-    return other
+    return other or _some_of_those(setting, state, place)
 
 
 def _beside(setting: Setting, state: DialogueState, place: PlaceMeaning, used: int) -> PlaceMeaning:

@@ -49,6 +49,7 @@ from fieldhand.planning.grammar.meaning import (
 from fieldhand.planning.grammar.places.numbered import ids_of
 from fieldhand.planning.selections import (
     are_rows,
+    as_in_row,
     as_zone,
     blocks_of,
     is_in_block,
@@ -424,7 +425,8 @@ def _require_several(plan: p.InOrder, path: Path, act: p.Act) -> None:
             message("it is not clear whether the readings at each place are meant, or those at all", context="fault")
         )
     rows = () if select is None else select.members
-    by_rows = len(rows) > 1 and all(any(is_one_row(part) for part in row.walk()) for row in rows)
+    single = all((at := as_in_row(one)) is not None and at.first == at.last and is_one_row(at.of) for one in rows)
+    by_rows = len(rows) > 1 and not single and all(any(is_one_row(part) for part in row.walk()) for row in rows)
     if by_rows or (select is not None and picks_per_row(select)):
         raise NotComposed(
             message("it is not clear whether the readings of each row are meant, or those of all", context="fault")

@@ -32,6 +32,7 @@ from fieldhand.planning.selections import (
     measures_from_here,
     of_each,
     over,
+    part_on_side,
     specifies_part,
     swapped,
 )
@@ -316,13 +317,16 @@ def the_site(noun: Lex, site: Site, word: Lex | None = None) -> str | None:
 
 @construction(
     "region: first=region AND second=region",
-    "region: first=region COMMA second=region",
+    "region: first=region comma=COMMA second=region",
     "region: first=region COMMA AND second=region",
     "region: first=region AND in_ second=region",
     cost=0.4,
 )
-def both_areas(first: s.Selector, second: s.Selector) -> s.Selector | None:
+def both_areas(first: s.Selector, second: s.Selector, comma: Lex | None = None) -> s.Selector | None:
     """Compose "the northern half and the eastern edge"."""
+    apart = part_on_side(second.members[0], first) is not None and part_on_side(first.members[-1], second) is None
+    if comma is not None and apart:
+        return None  # "the paddock, western half"
     if are_rows(first) != are_rows(second) or {*first.members} & {*second.members}:
         return None
     if are_rows(first) and is_whole_rows(first) and not is_whole_rows(second):

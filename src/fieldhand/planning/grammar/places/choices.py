@@ -8,7 +8,7 @@ from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.compass import CORNERS
 from fieldhand.planning.grammar.places.numbers import name_of
 from fieldhand.planning.grammar.words import Lex
-from fieldhand.planning.selections import are_rows, chooses_from_trees, is_one_row
+from fieldhand.planning.selections import are_rows, chooses_from_trees, is_one_row, leaves_out
 from fieldhand.site.model import Site
 
 GRAMMAR = Grammar()
@@ -25,6 +25,8 @@ def of_your_choice(inner: Nominal) -> Nominal | None:
 @construction("place: first=place OR second=place", "place: ANY first=place OR second=place", cost=0.9)
 def one_or_the_other(first: PlaceMeaning, second: PlaceMeaning) -> list[PlaceMeaning] | None:
     """Compose "tree 5 or tree 6"."""
+    if leaves_out(first.selector):
+        return None  # "all leeks but no onions or carrots"
     if first.shape != second.shape or first.shape not in ("one", "several", "area") or first.per or second.per:
         return None
     return [first, second]

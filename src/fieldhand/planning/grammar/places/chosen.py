@@ -650,15 +650,22 @@ def clause_choice(choice: Choice) -> Chosen | None:
     return bare(choice)
 
 
-@construction("bare: [n=count] [ONE] choice=chosen_as", "bare: [n=count] [ONE] choice=far_side", cost=0.1)
-def bare_behind(choice: Choice, n: int | None = None) -> Chosen | None:
+@construction("bare: [n=count] [noun=ONE] choice=chosen_as", "bare: [n=count] [noun=ONE] choice=far_side", cost=0.1)
+def bare_behind(choice: Choice, n: int | None = None, noun: Lex | None = None) -> list[Chosen] | None:
     """Compose "one nearest to the charger", of places that something else names."""
-    return None if choice.by == "best" and n is None else bare(choice, n)
+    return None if choice.by == "best" and n is None else bare_of(choice, n, noun)
 
 
-@construction("bare: [n=count] choice=chosen_by [ONE]", "bare: choice=chosen_by n=count [ONE]", cost=0.1)
+@construction("bare: [n=count] choice=chosen_by [noun=ONE]", "bare: choice=chosen_by n=count [noun=ONE]", cost=0.1)
+def bare_of(choice: Choice, n: int | None = None, noun: Lex | None = None) -> list[Chosen] | None:
+    """Compose "three oldest", of places that something else names; "the nearest ones": how many?"""
+    several = n is None and noun is not None and "plural" in noun.features
+    made = (bare(choice, number) for number in (VAGUE_NUMBERS if several else (n,)))
+    return [one for one in made if one is not None] or None
+
+
 def bare(choice: Choice, n: int | None = None) -> Chosen | None:
-    """Compose "three oldest", of places that something else names."""
+    """Return so many chosen ones, of places that something else names."""
     if (choice.by in ("nearest", "farthest", "beside") and choice.to is None) or choice.by == "of every":
         return None
     return Chosen(Nominal(s.Trees(), plural=n is not None and n > 1), count=n, choice=choice)
@@ -801,13 +808,14 @@ def _place(chosen: Chosen, choice: Choice, n: int | None) -> PlaceMeaning | None
     selector = _selector(choice, n, of)
     if selector is None:
         return None
+    those = Likewise("those", holds=True) if inner.pronoun and inner.selector == s.Trees() else None
     if choice.by == "nth":
-        return PlaceMeaning(selector, "several", each=True, in_order=choice.value.visited_from is not None)
+        return PlaceMeaning(selector, "several", each=True, in_order=choice.value.visited_from is not None, like=those)
     if choice.by == "of every" and n == 1:
-        return PlaceMeaning(selector, "several", each=True)
+        return PlaceMeaning(selector, "several", each=True, like=those)
     beside = chosen.neighbours if choice.to is None else choice.to.shape == "here"
     ranked = inner.pronoun and choice.by == "best" and n == 1 and of == s.Trees()  # "one of the youngest"
-    like = Likewise("ranked") if ranked else None
+    like = Likewise("ranked") if ranked else those
     vague = choice.value[0] if choice.by == "best" and n > 1 and chosen.count is None else ""
     shape: Literal["one", "several"] = "one" if n == 1 else "several"
     return PlaceMeaning(selector, shape, count=n if n > 1 else None, beside=beside, like=like, vague=vague)

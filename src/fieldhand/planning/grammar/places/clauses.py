@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
+from fieldhand.planning.grammar.meaning import Likewise, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.areas import inside
 from fieldhand.planning.grammar.places.chosen import Chosen
 from fieldhand.planning.grammar.places.nouns import AttributeCheck, AttributeTest, that_pass
@@ -202,10 +202,14 @@ def those_with_attribute(whole: PlaceMeaning, clause: Clause) -> PlaceMeaning | 
     return None if described is None else replace(whole, selector=described.selector)
 
 
-@construction("place: word=DET clause=relative", cost=0.2)
-def those_of_a_description(word: Lex, clause: Clause) -> PlaceMeaning | None:
-    """Compose "those older than 8 years"."""
-    if "stands_for_noun" not in word.features or (clause[0].test is None and clause[0].earlier is None):
+@construction("place: word=DET clause=relative", "place: ANY clause=relative", cost=0.2)
+def those_of_a_description(clause: Clause, word: Lex | None = None) -> PlaceMeaning | None:
+    """Compose "those older than 8 years" and "any that have mildew"."""
+    if word is not None and "stands_for_noun" not in word.features:
+        return None
+    if clause[0].test is None and clause[0].earlier is None:
         return None
     described = with_attribute(Nominal(s.Trees()), clause)
-    return None if described is None else PlaceMeaning(described.selector, "several")
+    return (
+        None if described is None else PlaceMeaning(described.selector, "several", like=Likewise("those", holds=True))
+    )

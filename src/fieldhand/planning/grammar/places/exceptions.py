@@ -21,6 +21,7 @@ from fieldhand.planning.selections import (
     AREAS,
     are_rows,
     are_several_rows,
+    as_excluding,
     as_in_row,
     as_quota,
     as_random,
@@ -62,6 +63,7 @@ class Omission:
         positions: Ranges of positions in the row.
         rows: Rows of these positions, if the phrase names them.
         chosen: Choice among the other places ("the oldest one").
+        bare_number: True for a number behind "not" alone ("not 6").
     """
 
     place: PlaceMeaning | None = None
@@ -73,12 +75,15 @@ class Omission:
     positions: tuple[Span, ...] = ()
     rows: s.Selector | None = None
     chosen: Chosen | None = None
+    bare_number: bool = False
 
 
-@construction("except: [COMMA] EXCEPT [FOR]", "except: [COMMA] word=WITHOUT", cost=0.0)
-def except_word(word: Lex | None = None) -> str | None:
-    """Compose "except for" and "without"."""
-    return "except" if word is None or "leaves_out" in word.features else None
+@construction("except: [COMMA] but=EXCEPT [FOR]", "except: [COMMA] word=WITHOUT", cost=0.0)
+def except_word(word: Lex | None = None, but: Lex | None = None) -> str | None:
+    """Compose "except for" and "without", and "but not", which says it of each of a kind ("but not a Carmel")."""
+    if but is not None:
+        return "not" if "not" in but.text.split() else "except"
+    return "except" if word is not None and "leaves_out" in word.features else None
 
 
 @construction(
@@ -175,6 +180,25 @@ def positions_out(
     return Omission(positions=positions or trees, rows=rows, as_trees=bool(trees))
 
 
+@construction(
+    "row_ends: [DET] ROW noun=FINISH", "row_ends: [DET] noun=FINISH OF [DET] row=ROW",
+    "row_ends: [DET] noun=FINISH OF EACH row=ROW", "row_ends: EACH noun=FINISH OF DET row=ROW", cost=0.1,
+)  # fmt: skip
+def row_ends(noun: Lex, row: Lex | None = None) -> s.Selector | None:
+    """Compose "the row ends" and "the end of a row", of any row of the site."""
+    if noun.plural is False and row is None:
+        return None
+    return s.UnionOf(parts=tuple(s.InRow(first=at, last=at, of=s.Rows()) for at in (1, -1)))
+
+
+@construction("out: at=row_ends", "out: AT at=row_ends", "out: [DET] TREE AT at=row_ends", cost=0.1)
+@construction("out: DET [ONE] AT at=row_ends", cost=0.1)
+@construction("out: FROM at=row_ends", "out: FROM [DET] TREE AT at=row_ends", cost=0.1)
+def ends_of_rows_out(at: s.Selector) -> Omission:
+    """Compose "the plants at the row ends" behind "but not"."""
+    return Omission(place=PlaceMeaning(at, "several"))
+
+
 @construction("out: n=count OFTHEM", cost=0.1)
 def some_of_them_out(n: int) -> Omission:
     """Compose "two of them" behind "all leeks except"."""
@@ -191,38 +215,79 @@ def chosen_out(chosen: Chosen) -> Omission:
     "outs: first=out COMMA second=out", "outs: first=outs COMMA second=out",
     "out: first=out [COMMA] OR second=out", "out: first=outs [COMMA] OR second=out",
     "out: first=out [COMMA] NOR second=out", "out: first=outs [COMMA] NOR second=out",
+    "out: first=out AND second=out", "out: first=outs [COMMA] AND second=out",
     cost=0.0,
 )  # fmt: skip
 def neither_of_both(first: Omission, second: Omission) -> Omission | None:
-    """Compose "the wet corner or the slope" behind "but not": both are left out."""
+    """Compose "the wet corner or the slope" behind "but not", and "the beans and bed 4": both are left out."""
     one, other = first.place, second.place
-    if one is None or other is None or not {one.shape, other.shape} <= {"one", "several", "area"}:
+    if one is None or other is None:
         return None
-    if any(place.per is not None or place.optional or place.like is not None for place in (one, other)):
+    both = both_out(one, other)
+    return None if both is None else Omission(place=both)
+
+
+def both_out(one: PlaceMeaning, other: PlaceMeaning) -> PlaceMeaning | None:
+    """Return two places of which both are left out."""
+    if not {one.shape, other.shape} <= {"one", "several", "area"}:
+        return None
+    known = all(place.like is None or place.like.kind == "those" for place in (one, other))
+    if not known or any(place.per is not None or place.optional for place in (one, other)):
         return None
     parts = s.UnionOf(parts=(*one.selector.members, *other.selector.members))
-    return Omission(place=PlaceMeaning(parts, "area" if one.shape == other.shape == "area" else "several"))
+    return PlaceMeaning(parts, "area" if one.shape == other.shape == "area" else "several")
 
 
-@construction("but_out: except out=out", "but_out: [COMMA] NEITHER out=out", cost=0.0)
-def out_with_except(out: Omission) -> Omission:
-    """Compose "except the yellow trees"."""
-    return out
+@construction("but_out: how=except out=out", "but_out: [COMMA] NEITHER out=out", cost=0.0)
+def out_with_except(out: Omission, how: str = "not") -> Omission | None:
+    """Compose "except the yellow trees"; "but not bed 7 and not the Roma" leaves out both."""
+    if out.place is not None and as_excluding(out.place.selector) is not None:
+        return None
+    return replace(out, place=each_of_kind(out.place)) if how == "not" and out.place is not None else out
 
 
-@construction("but_out: BUT [word=NOT] out=out", "but_out: NOT trees=numbers", cost=0.0)
+def each_of_kind(place: PlaceMeaning) -> PlaceMeaning:
+    """Return "a Carmel" behind "not" as each of them."""
+    some = as_some(place.selector)
+    if some is None or some.count != 1 or place.shape != "one":
+        return place
+    return replace(place, selector=some.of, shape="several", count=None)
+
+
+@construction("but_out: but=BUT [word=NOT] out=out", "but_out: NOT trees=numbers", cost=0.0)
 def out_with_but(
-    used: int, out: Omission | None = None, trees: tuple[str, ...] = (), word: Lex | None = None
+    used: int,
+    out: Omission | None = None,
+    trees: tuple[str, ...] = (),
+    word: Lex | None = None,
+    but: Lex | None = None,
 ) -> Omission | None:
     """Compose "but not the yellow trees" and "not 6"; "but only the yellow ones" keeps them."""
     tokens = tokens_of(used)
     if len(tokens) < tokens[-1] - tokens[0] + 1:
         return None
     if out is None:
-        return Omission(trees=trees)
+        return Omission(trees=trees, bare_number=True)
     if out.trees == ("1",) and not out.as_trees:
         return None  # "the last row but one"
+    if out_with_except(out) is None:
+        return None
+    denied = word is not None or (but is not None and "not" in but.text.split())
+    if denied and out.place is not None:
+        out = replace(out, place=each_of_kind(out.place))
     return replace(out, or_so_many=word is None and len(out.trees) == 1 and not out.as_trees)
+
+
+@construction("but_out: [COMMA] GROUPNONE out=out", "but_out: [COMMA] WITH GROUPNONE out=out", cost=0.1)
+def none_of_them_out(out: Omission) -> Omission | None:
+    """Compose "none of them at the end of a row"."""
+    return out_with_except(out)
+
+
+@construction("but_out: first=but_out [COMMA] AND NOT second=out", cost=-0.3)
+def neither_of_them_out(first: Omission, second: Omission) -> Omission | None:
+    """Compose "but not bed 7 and not the Roma"."""
+    return neither_of_both(first, second)
 
 
 @construction(
@@ -237,6 +302,8 @@ def without(whole: PlaceMeaning, out: Omission, site: Site) -> list[PlaceMeaning
         others = without(PlaceMeaning(drawn, "several"), out, site) or ()
         return [replace(whole, selector=swapped(whole.selector, drawn, one.selector)) for one in others] or None
     if whole.shape not in ("several", "area") or whole.optional:
+        return None
+    if out.place is not None and not _each_is_in(out.place, whole, site):
         return None
     if out.place is not None:
         left = except_for(whole, out.place, site)
@@ -260,7 +327,22 @@ def without(whole: PlaceMeaning, out: Omission, site: Site) -> list[PlaceMeaning
         return None
     if out.as_trees and not parts and ids_of(whole.selector, site) is not None:
         return [elsewhere(out.trees)]
+    if out.bare_number and is_one_row(whole.selector):
+        parts = []  # "row 3, not 4": the fourth tree, or row 4, which is left out anyway?
     return [_excluding(whole, part) for part in parts] or None
+
+
+def _each_is_in(out: PlaceMeaning, whole: PlaceMeaning, site: Site) -> bool:
+    """Return True if each of several parts of an exception is one of the whole, or cannot be told now."""
+    parts = out.selector.members
+    if len(parts) < 2 or whole.selector == s.Trees():
+        return True
+    among = ids_of(whole.selector, site)
+    for part in parts:
+        own = None if ids_of(over(part, whole.selector), site) else ids_of(part, site)
+        if own is not None and among is not None and not own & among:
+            return False  # "photograph all tomatoes except the Roma and bed 3", where onions grow
+    return True
 
 
 def _only_row_of(whole: PlaceMeaning, site: Site) -> s.Selector | None:

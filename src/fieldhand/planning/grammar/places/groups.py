@@ -12,6 +12,7 @@ from fieldhand.planning.grammar.places.numbered import are_two, ids_of
 from fieldhand.planning.grammar.places.quantities import article, quantified, unquantified
 from fieldhand.planning.grammar.words import Lex
 from fieldhand.planning.selections import (
+    AREAS,
     as_in_row,
     as_quota,
     as_random,
@@ -29,6 +30,7 @@ from fieldhand.planning.selections import (
     named_places,
     of_each,
     over,
+    picked_from,
     replaceable_area,
     specifies_part,
     swapped,
@@ -143,7 +145,7 @@ def both(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[Place
     if first.per is not None or second.per is not None or not named:
         return None
     if second.like is not None and second.like.kind == "those":
-        second = replace(second, selector=kind_in_area(first.selector, second.selector), like=None)
+        second = replace(second, selector=_of_the_kind(first.selector, second.selector), like=None)
     if first.like is not None and _is_named_best(first):
         first = replace(first, like=None)
     if second.like is not None and second.like.kind == "extreme":
@@ -223,6 +225,22 @@ def and_some_without(first: PlaceMeaning, n: int, word: Lex) -> PlaceMeaning | N
     return PlaceMeaning(s.UnionOf(parts=parts), "several", count=some.count + n)
 
 
+@construction("place: NOTONLY first=place [COMMA] BUTALSO second=place", cost=0.1)
+def not_only_but_also(first: PlaceMeaning, second: PlaceMeaning) -> PlaceMeaning | list[PlaceMeaning] | None:
+    """Compose "not only the leeks but also the onions"."""
+    return both(first, second)
+
+
+@construction("place: first=place AND [OF] ASMANY inner=nominal", cost=0.0)
+def and_as_many(first: PlaceMeaning, inner: Nominal) -> PlaceMeaning | list[PlaceMeaning] | None:
+    """Compose "five leeks and as many onions"."""
+    chosen = as_some(first.selector) or as_random(first.selector)
+    if chosen is None or first.per is not None or inner.single or inner.complete or not inner.counts(chosen.count):
+        return None
+    others = replace(chosen, of=inner.selector)
+    return both(first, PlaceMeaning(others, "several", count=chosen.count))
+
+
 @construction("place: word=EACH whole=place", cost=0.1)
 def both_of_two(word: Lex, whole: PlaceMeaning) -> PlaceMeaning | None:
     """Compose "both the trough and the mast"."""
@@ -234,6 +252,14 @@ def _is_named_best(place: PlaceMeaning) -> bool:
     """Return True for "the oldest", which may be one of those named before it."""
     best = as_top(place.selector)
     return place.like is not None and place.like.kind == "ranked" and best is not None and bool(best.attribute)
+
+
+def _of_the_kind(first: s.Selector, second: s.Selector) -> s.Selector:
+    """Return "those in row 5" and "the one farthest from it" as trees of the kind before them."""
+    if isinstance(second, AREAS):
+        return kind_in_area(first, second)
+    group = None if is_by_attribute(second) else picked_from(first)  # "the Carmels, and those with mildew"
+    return second if group is None else over(second, group)
 
 
 def _drawn(selector: s.Selector) -> s.Selector:

@@ -96,7 +96,7 @@ def the_rest(noun: Lex | None = None) -> PlaceMeaning | None:
 
 
 @construction(
-    "place: OTHERS OF where=region",
+    "place: OTHERS in_ where=region",
     "place: OTHERS OF where=crop_area",
     "place: DET OTHER noun=TREE in_ where=region",
     "place: EACH [DET] OTHER noun=TREE in_ where=region",

@@ -86,12 +86,16 @@ def zones_starting_with(
 @construction(
     "zone_list: EACH noun=NUMBEREDZONE",
     "zone_list: EACH [OF] DET noun=NUMBEREDZONE",
-    "zone_list: [DET] noun=NUMBEREDZONE",
+    "zone_list: several=NUMBEREDZONE",
+    "zone_list: word=DET several=NUMBEREDZONE",
     cost=0.2,
 )
-def every_zone(noun: Lex) -> Zones:
-    """Compose "every bed", "the beds" and "per bed"."""
-    return tuple(s.InZone(zone=name) for _, name in noun.value)
+def every_zone(noun: Lex | None = None, several: Lex | None = None, word: Lex | None = None) -> Zones | None:
+    """Compose "every bed", "the beds" and "a bed" of "two a bed"; "the bed" is one of them."""
+    if several is not None and not several.plural and (word is None or "indefinite" not in word.features):
+        return None
+    noun = noun or several
+    return None if noun is None else tuple(s.InZone(zone=name) for _, name in noun.value)
 
 
 @construction(

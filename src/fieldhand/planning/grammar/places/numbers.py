@@ -62,6 +62,12 @@ def count(number: Lex) -> int | None:
     return whole(number.value)
 
 
+@construction("count: check=CMP number=NUM", cost=0.1)
+def exact_count(check: Lex, number: Lex) -> int | None:
+    """Compose "exactly 5"."""
+    return whole(number.value) if check.value == ("eq", "") else None
+
+
 @construction("count: first=NUM OR second=NUM", cost=0.3)
 def either_count(first: Lex, second: Lex) -> list[int] | None:
     """Compose "three or four": a question between numbers."""

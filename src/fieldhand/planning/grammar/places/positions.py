@@ -411,7 +411,11 @@ def behind_their_rows(
     """Compose "row 3, trees 4 to 9", "row 3's northern end" and "every row's first tree"."""
     there, at = in_rows(chosen, rows), _as_positions(chosen)
     aside = comma is not None and at is not None and at.noun != ""
-    return None if there is None or aside else by_number(there, site)
+    places = None if there is None or aside else by_number(there, site)
+    if places is None or comma is None or not chosen.inner.pronoun:
+        return places
+    # "two pictures of row 3, one at each end": one of the two
+    return [replace(one, each=False, count=len(one.selector.members)) for one in places]
 
 
 @construction("place: rows=rows trees=tree_ids", cost=0.1, given=("site",))

@@ -7,7 +7,7 @@ from typing import Literal
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.chart import Grammar
-from fieldhand.planning.grammar.meaning import Nominal, PlaceMeaning
+from fieldhand.planning.grammar.meaning import Likewise, Nominal, PlaceMeaning
 from fieldhand.planning.grammar.places.numbered import are_two, ids_of
 from fieldhand.planning.grammar.places.numbers import VAGUE_NUMBERS
 from fieldhand.planning.grammar.places.vague import as_many_of_best
@@ -68,6 +68,8 @@ def each(word: Lex, n: int | None = None) -> Determiner:
 def quantified(quantity: Determiner, inner: Nominal, site: Site) -> list[PlaceMeaning] | None:
     """Compose "the three yellow trees", "any tree of row 4" and "every corner"."""
     kind, n = quantity.kind, quantity.n
+    if inner.pronoun and inner.tested and n is None and kind in ("", "the", "each", "all", "any", "any such"):
+        return [_of_those(place) for place in quantified(quantity, replace(inner, pronoun=False), site) or ()] or None
     if quantity.two and not inner.complete and not are_two(inner.selector, site):
         return None  # "both trees", of two that were named
     if inner.single:
@@ -95,9 +97,19 @@ def quantified(quantity: Determiner, inner: Nominal, site: Site) -> list[PlaceMe
     return _those_there(1, inner, site) if kind == "the" else None
 
 
+def _of_those(place: PlaceMeaning) -> PlaceMeaning:
+    """Return "the ones with mildew" as those of the places that were named before."""
+    known = place.shape == "several" and place.count is None
+    known = known and not any(part.uses_records for part in place.selector.walk())
+    return replace(place, like=Likewise("those", holds=True)) if known else place
+
+
 @construction("place: inner=nominal", cost=0.3)
 def unquantified(inner: Nominal) -> PlaceMeaning | None:
     """Compose "yellow trees"."""
+    if inner.pronoun and inner.tested:
+        place = unquantified(replace(inner, pronoun=False))
+        return None if place is None else _of_those(place)
     if inner.single:
         return PlaceMeaning(inner.selector, "one")
     if inner.complete:

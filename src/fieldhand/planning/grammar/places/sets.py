@@ -26,6 +26,7 @@ from fieldhand.planning.selections import (
     is_in_block,
     is_one_row,
     over,
+    part_on_side,
     picked_from,
     some_of,
     swapped,
@@ -309,6 +310,38 @@ def restricted_to(whole: PlaceMeaning, clause: Clause) -> PlaceMeaning | None:
         return None
     inner = with_attribute(Nominal(whole.selector, plural=True), clause)
     return None if inner is None else replace(whole, selector=inner.selector, shape="several")
+
+
+@construction(
+    "place: whole=place [COMMA] BUT ONLY part=place", "place: whole=place COMMA ONLY part=place",
+    "place: whole=place [COMMA] BUT part=place ONLY", cost=-1.0, given=("site",),
+)  # fmt: skip
+def only_a_part(whole: PlaceMeaning, part: PlaceMeaning, site: Site) -> PlaceMeaning | None:
+    """Compose "bed 8, but only the Roma" and "row 3, just the northern half", of what is in it."""
+    known = {whole.shape, part.shape} <= {"one", "several", "area"} and part.like is None and whole.like is None
+    if not known or whole.shape == "one" or any(one.per is not None or one.optional for one in (whole, part)):
+        return None
+    if whole.selector == s.Trees() or whole.selector.relative or part.selector.relative:
+        return None
+    selector = part_on_side(part.selector, whole.selector) or over(part.selector, whole.selector)
+    own, among = ids_of(selector, site), ids_of(whole.selector, site)
+    if own is None or among is None or not own or not own <= among or own == among:
+        return None
+    several = part.shape == "area" or (part.shape == "one" and len(own) > 1)  # "all rows, but only the first tree"
+    return replace(part, selector=selector, shape="several" if several else part.shape)
+
+
+@construction("place: whole=place [COMMA] [and_or_but] ONLY [DET] one=chosen", cost=0.1, given=("site",))
+@construction("place: whole=place [COMMA] [and_or_but] ONLY [DET] one=bare", cost=0.1, given=("site",))
+def only_chosen(whole: PlaceMeaning, one: Chosen, site: Site) -> list[PlaceMeaning] | None:
+    """Compose "the peppers, but only every other one" and "row 3, but only the two oldest"."""
+    bare_noun = one.inner.pronoun or one.inner == Nominal(s.Trees(), plural=one.inner.plural)
+    if whole.shape not in ("several", "area") or whole.count is not None or whole.per is not None or whole.like:
+        return None
+    if one.choice is None or not bare_noun or whole.optional or whole.selector == s.Trees():
+        return None
+    inner = replace(one.inner, pronoun=False)
+    return chosen_among(whole.selector, replace(one, inner=inner), site) or None
 
 
 @construction(

@@ -88,7 +88,6 @@ def corners(noun: Lex, n: int | None = None) -> Nominal | None:
 
 
 @construction(
-    "place: [DET] MIDDLE in_ site",
     "place: [word=DET] MIDDLE",
     "place: [word=DET] MIDDLE TREE",
     "place: [DET] MIDDLE ONE",
@@ -99,6 +98,12 @@ def corners(noun: Lex, n: int | None = None) -> Nominal | None:
 def middle(word: Lex | None = None) -> PlaceMeaning | None:
     """Compose "the middle of the orchard"; "its middle" is that of something else."""
     return None if word is not None and "of_it" in word.features else PlaceMeaning(s.Middle(), "one")
+
+
+@construction("place: [DET] MIDDLE in_ site", cost=0.2)
+def middle_of_site() -> PlaceMeaning:
+    """Compose "the middle of the orchard", whatever was named before it."""
+    return PlaceMeaning(s.Middle(), "one", itself=True)
 
 
 @construction(
