@@ -140,10 +140,10 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
     same = any(one.action == LAST_THING and one.count is None for one in command.things)
     there = command.place or (state.lead.place if state.lead is not None else None)
     of_all = there is not None and there.shape == "area" and not bare_points(there.selector, setting.site, 1)
-    if same and command.spacing is None and (of_all or (command.place is not None and command.place.shape == "area")):
-        if command.place is not None and command.place.shape == "area" and command.place.per is None:
-            if command.times == 1 and not any(one.more for one in command.things):
-                return repeated_in(setting, state, command.place.selector, command.used)
+    area = command.place if command.place is not None and command.place.shape == "area" else None
+    if same and command.spacing is None and (of_all or area is not None):
+        if area is not None and area.per is None and command.times == 1 and not any(t.more for t in command.things):
+            return repeated_in(setting, state, area.selector, command.used)
         raise NotComposed(message("at every tree, or at how many?", context="fault"))
     state, command = _with_unsaid_again(setting, state, command)
     state, things = named_things(setting, state, command)
