@@ -16,7 +16,12 @@ REFUSED = {
     "a map": (("site", "demo", "--picture", "x.png"), "matplotlib", "plan"),
     "a plan": (("plan", "Reead CO2 at tree 4.", "--site", "demo"), "rapidfuzz", "plan"),
     "the REST API": (("serve",), "fastapi", "serve"),
+    "accounts": (("accounts", "list"), "sqlalchemy", "serve"),
 }
+
+
+#: Distributions that have another name than the package that is imported.
+DISTRIBUTIONS = {"argon2": "argon2-cffi"}
 
 
 def names(declared: list[str]) -> set[str]:
@@ -26,8 +31,9 @@ def names(declared: list[str]) -> set[str]:
 def test_the_extra_of_a_package_is_the_one_that_installs_it() -> None:
     base, extras = requirements()
     for package, extra in EXTRAS.items():
-        assert package in names(extras[extra])
-        assert package not in names(base)
+        distribution = DISTRIBUTIONS.get(package, package)
+        assert distribution in names(extras[extra])
+        assert distribution not in names(base)
     more = names(extras["plan"]) | names(extras["solver"])
     assert more - {"fieldhand"} == {package for package, extra in EXTRAS.items() if extra in ("plan", "solver")}
 

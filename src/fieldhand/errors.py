@@ -14,7 +14,8 @@
     │   │   └── NoPlaceError        selector that matches nothing on this site
     │   ├── OutputError             file or folder that cannot be written
     │   │   ├── JournalError        folder or journal of a mission that cannot be continued
-    │   │   └── StoreError          queue of missions: the robot's store or the sender's outbox
+    │   │   ├── StoreError          queue of missions: the robot's store or the sender's outbox
+    │   │   └── DatabaseError       database of the server
     │   ├── ProblemError            orienteering problem: inconsistent or without a solution
     │   ├── ModelError              language model: key, endpoint, or answer
     │   └── PluginError             extension of another distribution
@@ -45,6 +46,7 @@ __all__ = [
     "BlockedFault",
     "BundleError",
     "CaseError",
+    "DatabaseError",
     "DeliveryError",
     "DriveFault",
     "ExecutionError",
@@ -194,6 +196,10 @@ class JournalError(OutputError):
 
 class StoreError(OutputError):
     """The queue of missions cannot be used: the robot's store, or the sender's outbox."""
+
+
+class DatabaseError(OutputError):
+    """The server's database of accounts cannot be opened, read or written."""
 
 
 class ProblemError(InputError):

@@ -14,6 +14,9 @@ EXTRAS = {
     "numba": "solver",
     "fastapi": "serve",
     "uvicorn": "serve",
+    "sqlalchemy": "serve",
+    "alembic": "serve",
+    "argon2": "serve",
 }
 
 

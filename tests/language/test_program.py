@@ -197,3 +197,58 @@ def test_what_cannot_be_used(command: Command, words: tuple[str, ...]) -> None:
     assert done.status
     assert done.text.startswith("fieldhand: ")
     assert not done.leaks(words[0], "nobody fast null")
+
+
+def test_accounts_and_their_errors(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("sqlalchemy")
+    own = (
+        "Ada",
+        "admin",
+        "local",
+        "read",
+        "plan",
+        "approve",
+        "command",
+        "NAME",
+        "cron",
+        "accounts",
+        "add",
+        "boss",
+        "fly",
+    )
+    roles = ("viewer", "planner", "approver")
+    for words in (
+        ("list",),
+        ("add", "Ada", "--role", "admin"),
+        ("role", "Ada", "viewer"),
+        ("password", "Ada"),
+        ("token", "cron", "--scopes", "read"),
+        ("token", "cron", "--scopes", "read", "--days", "1"),
+        ("link",),
+    ):
+        monkeypatch.setenv("FIELDHAND_PASSWORD", "six yellow plums")
+        done = command("accounts", *words)
+        assert done.status == 0, done.text
+        assert not done.leaks(*own, *roles)
+    for words, password in (
+        (("add", "ada"), "six yellow plums"),
+        (("add", "Bob"), "short"),
+        (("add", "Bob"), "aaaaaaaaaaaaaa"),
+        (("add", "Bob"), ""),
+        (("add", "local"), "six yellow plums"),
+        (("add", "a\u202eb"), "six yellow plums"),
+        (("add", "x" * 101), "six yellow plums"),
+        (("add", "Bob", "--role", "boss"), "six yellow plums"),
+        (("remove", "Bob"), ""),
+        (("token", "x", "--scopes", "fly"), ""),
+    ):
+        monkeypatch.setenv("FIELDHAND_PASSWORD", password)
+        failed = command("accounts", *words)
+        assert failed.status == 2
+        assert not failed.leaks(*own, *roles, "Bob", "ada", "RIGHT TO LEFT OVERRIDE")
+    monkeypatch.setenv("FIELDHAND_DATABASE", "nonsense")
+    assert not command("accounts", "list").leaks(
+        "sqlite", "postgresql", "FOLDER", "FILE", "USER", "PASSWORD", "HOST", "NAME"
+    )
+    monkeypatch.delenv("FIELDHAND_DATABASE")
+    assert not command("accounts", "remove", "Ada").leaks(*own)

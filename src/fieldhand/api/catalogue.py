@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import Any
+from typing import Annotated, Any
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Depends
 
+from fieldhand.api.callers import Caller, Scope, require
 from fieldhand.api.inputs import open_choice, open_robot
 from fieldhand.api.work import Workers
 from fieldhand.language import languages
 from fieldhand.site.loader import BUILT_IN_SITES
+
+Reader = Annotated[Caller, Depends(require(Scope.READ))]
 
 
 def router(workers: Workers) -> APIRouter:
@@ -18,22 +21,22 @@ def router(workers: Workers) -> APIRouter:
     routes = APIRouter(tags=["catalogue"])
 
     @routes.get("/sites")
-    async def sites() -> list[dict[str, Any]]:
+    async def sites(caller: Reader) -> list[dict[str, Any]]:
         """List the built-in sites."""
-        return await workers.do(_sites)
+        return await workers.do(_sites, caller.name)
 
     @routes.get("/robots")
-    async def robots() -> list[dict[str, Any]]:
+    async def robots(caller: Reader) -> list[dict[str, Any]]:
         """List the built-in robots."""
-        return await workers.do(_robots)
+        return await workers.do(_robots, caller.name)
 
     @routes.get("/robots/{name}")
-    async def robot(name: str) -> dict[str, Any]:
+    async def robot(name: str, caller: Reader) -> dict[str, Any]:
         """Return the profile of a robot."""
-        return await workers.do(lambda: _robot(name))
+        return await workers.do(lambda: _robot(name), caller.name)
 
     @routes.get("/languages")
-    async def spoken() -> list[dict[str, str]]:
+    async def spoken(_: Reader) -> list[dict[str, str]]:
         """List the languages in which a plan can be read back."""
         return [{"code": code, "name": name} for code, name in languages().items()]
 

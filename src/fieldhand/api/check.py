@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Depends
 
 from fieldhand import mission
 from fieldhand.api.answers import review_answer
+from fieldhand.api.callers import Caller, Scope, require
 from fieldhand.api.earlier import with_logs
 from fieldhand.api.inputs import CheckBody, open_site_and_robot, open_task
 from fieldhand.api.work import Workers
@@ -20,9 +21,9 @@ def router(workers: Workers) -> APIRouter:
     routes = APIRouter(tags=["mission"])
 
     @routes.post("/check")
-    async def check(body: CheckBody) -> dict[str, Any]:
+    async def check(body: CheckBody, caller: Annotated[Caller, Depends(require(Scope.PLAN))]) -> dict[str, Any]:
         """Check a Task document against a site and a robot."""
-        return await workers.do(lambda: _check(body))
+        return await workers.do(lambda: _check(body), caller.name)
 
     return routes
 

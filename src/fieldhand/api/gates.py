@@ -97,7 +97,7 @@ class CallerGate:
         if scope["type"] == "http":
             headers = Headers(scope=scope)
             host, origin = headers.get("host", ""), headers.get("origin")
-            if self._hosts is not None and _name(f"//{host}") not in self._hosts:
+            if self._hosts is not None and host_name(host) not in self._hosts:
                 response = problem(403, "this server does not answer under that name", "Host", "call it as localhost")
                 await response(scope, receive, send)
                 return
@@ -188,10 +188,10 @@ class BodyGate:
             self._held -= taken
 
 
-def _name(url: str) -> str | None:
-    """Return the host name in a URL, without port and brackets; None for an invalid URL."""
+def host_name(host: str) -> str | None:
+    """Return the name in a ``Host`` header, without port and brackets; None for an invalid one."""
     try:
-        parts = urlsplit(url)
+        parts = urlsplit(f"//{host}")
         _ = parts.port
     except ValueError:
         return None

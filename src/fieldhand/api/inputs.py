@@ -143,6 +143,7 @@ class MissionInputBody(SiteAndRobotBody):
     request: RequestText | None = None
     answers: AnswerList = []
     planner: Literal["auto", "english", "llm"] = "auto"
+    approved_by: Name | None = None
     confirmed: Warnings = []
     seed: Annotated[int, Field(ge=0, lt=2**32)] | None = None
     world: dict[str, Any] | None = None
@@ -156,15 +157,12 @@ class MissionInputBody(SiteAndRobotBody):
 
 
 class RunBody(MissionInputBody):
-    """A mission to simulate at once, with the name of the operator."""
-
-    approved_by: Name
+    """A mission to simulate at once."""
 
 
 class MissionBody(MissionInputBody):
-    """A mission to begin on a simulated robot; the caller approves it, by default in the own name."""
+    """A mission to begin on a simulated robot."""
 
-    approved_by: Name | None = None
     speed: Annotated[float, Field(gt=0, le=1000, allow_inf_nan=False)] | Literal["max"] = 1.0
 
 

@@ -18,7 +18,8 @@ from starlette.responses import StreamingResponse
 
 from fieldhand import mission, missions
 from fieldhand.api.answers import review_answer, unplanned_answer
-from fieldhand.api.callers import Caller, Scope, require
+from fieldhand.api.audit import Record
+from fieldhand.api.callers import Caller, Scope, approver, require
 from fieldhand.api.earlier import records_of, with_logs
 from fieldhand.api.event_records import event_record, summary_record
 from fieldhand.api.inputs import CommandBody, Lang, MissionBody, answers_of, open_files, open_task, open_world
@@ -28,7 +29,7 @@ from fieldhand.api.work import Workers
 from fieldhand.approval.production import require_unsigned_allowed
 from fieldhand.compatibility import UTC
 from fieldhand.fleet import Fleet, MissionFeed, WorkerSettings
-from fieldhand.language import open_language
+from fieldhand.language import message, open_language
 from fieldhand.mission.documents import SiteAndRobot
 from fieldhand.planning.planner import Planned
 from fieldhand.task.codec import encode
@@ -47,12 +48,13 @@ REPORT_POLICY = (
 
 MissionId = Annotated[str, InPath(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,99}$")]
 ImageName = Annotated[str, InPath(pattern=r"^[A-Za-z0-9_-]{1,150}\.(png|jpg|tif)$")]
+Reader = Annotated[Caller, Depends(require(Scope.READ))]
 READER = [Depends(require(Scope.READ))]
 Approver = Annotated[Caller, Depends(require(Scope.APPROVE))]
 Commander = Annotated[Caller, Depends(require(Scope.COMMAND))]
 
 
-def router(workers: Workers, planners: Planners, fleet: Fleet) -> APIRouter:
+def router(workers: Workers, planners: Planners, fleet: Fleet, record: Record) -> APIRouter:
     """Return the routes below ``/missions``."""
     routes = APIRouter(tags=["missions"])
     commands, readers = CapacityLimiter(_COMMANDS), CapacityLimiter(_READERS)
@@ -63,11 +65,14 @@ def router(workers: Workers, planners: Planners, fleet: Fleet) -> APIRouter:
             raise no_mission(name)
         return folder
 
-    @routes.post("/missions", status_code=201)
+    @routes.post("/missions", status_code=201, dependencies=[Depends(require(Scope.COMMAND))])
     async def begin(body: MissionBody, caller: Approver, response: Response) -> dict[str, Any]:
         """Approve a mission in the name of the caller, and begin it on a simulated robot."""
-        answer = await workers.do(lambda: _begin(body, caller, planners, fleet))
-        if answer["outcome"] != "began":
+        by = approver(caller, body.approved_by)
+        answer = await workers.do(lambda: _begin(body, by, planners, fleet), caller.name)
+        if answer["outcome"] == "began":
+            await record(caller, "approve and begin", answer["id"], approved_by=by, request=answer["request"][:200])
+        else:
             response.status_code = 200
         return answer
 
@@ -76,11 +81,11 @@ def router(workers: Workers, planners: Planners, fleet: Fleet) -> APIRouter:
         """Return the missions that were begun last, the newest first."""
         return await to_thread.run_sync(lambda: _listed(fleet, limit, lang), limiter=readers)
 
-    @routes.get("/missions/{name}", dependencies=READER)
-    async def one(name: MissionId, lang: Lang = "en") -> dict[str, Any]:
+    @routes.get("/missions/{name}")
+    async def one(name: MissionId, caller: Reader, lang: Lang = "en") -> dict[str, Any]:
         """Return a mission: its state, and what was approved: the plan in words, the forecast and the map."""
         feed = _feed(fleet, name)
-        plan = await workers.do(lambda: _plan(found(name), lang))
+        plan = await workers.do(lambda: _plan(found(name), lang), caller.name)
         state = await to_thread.run_sync(lambda: summary_record(feed, open_language(lang)), limiter=readers)
         return {**plan, **state}
 
@@ -99,6 +104,7 @@ def router(workers: Workers, planners: Planners, fleet: Fleet) -> APIRouter:
         answer = await to_thread.run_sync(
             partial(fleet.command, folder, body.command, caller.name, wait=_patience()), limiter=commands
         )
+        await record(caller, body.command, name, confirmed=answer.confirmed, sent=answer.sent)
         return {**asdict(answer), "why": language.say(answer.why)}
 
     @routes.get("/missions/{name}/report", dependencies=READER)
@@ -107,7 +113,9 @@ def router(workers: Workers, planners: Planners, fleet: Fleet) -> APIRouter:
         path = found(name) / "report.html"
         data = await to_thread.run_sync(lambda: path.read_bytes() if path.is_file() else None, limiter=readers)
         if data is None:
-            raise RefusedRequest(404, "there is no report yet", "it is written when the mission has ended")
+            raise RefusedRequest(
+                404, message("there is no report yet"), message("it is written when the mission has ended")
+            )
         headers = {"Content-Security-Policy": REPORT_POLICY}
         return Response(data, media_type="text/html; charset=utf-8", headers=headers)
 
@@ -117,7 +125,8 @@ def router(workers: Workers, planners: Planners, fleet: Fleet) -> APIRouter:
         folder = found(name)
         data = await to_thread.run_sync(lambda: missions.image_of(folder, image), limiter=readers)
         if data is None:
-            raise RefusedRequest(404, "there is no such image", "ask for one that an action event of the mission names")
+            advice = message("ask for one that an action event of the mission names")
+            raise RefusedRequest(404, message("there is no such image"), advice)
         kind = {"png": "image/png", "jpg": "image/jpeg", "tif": "image/tiff"}[image.rpartition(".")[2]]
         return Response(data, media_type=kind)
 
@@ -150,7 +159,11 @@ def router(workers: Workers, planners: Planners, fleet: Fleet) -> APIRouter:
 
 def no_mission(name: str) -> RefusedRequest:
     """Return the refusal for a mission that does not exist."""
-    return RefusedRequest(404, f"there is no mission '{name}'", "GET /api/v1/missions lists them")
+    return RefusedRequest(
+        404,
+        message("there is no mission '{name}'", name=name),
+        message("{route} lists them", route="GET /api/v1/missions"),
+    )
 
 
 def _feed(fleet: Fleet, name: str) -> MissionFeed:
@@ -160,11 +173,11 @@ def _feed(fleet: Fleet, name: str) -> MissionFeed:
     return feed
 
 
-def _begin(body: MissionBody, caller: Caller, planners: Planners, fleet: Fleet) -> dict[str, Any]:
+def _begin(body: MissionBody, by: str, planners: Planners, fleet: Fleet) -> dict[str, Any]:
     require_unsigned_allowed(os.environ)
     site_and_robot, files = open_files(body)
     site, robot = site_and_robot.site, site_and_robot.robot
-    world, by = open_world(body.world), body.approved_by or caller.name
+    world = open_world(body.world)
     mission.check_world(world, site, robot)
     planner = "document"
     if body.request is not None:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Annotated, Any
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Depends
 
 from fieldhand import mission
 from fieldhand.api.answers import review_answer, unplanned_answer
+from fieldhand.api.audit import Record
+from fieldhand.api.callers import Caller, Scope, require
 from fieldhand.api.earlier import records_of
 from fieldhand.api.inputs import PlanBody, answers_of, open_site_and_robot
 from fieldhand.api.work import Workers
@@ -19,14 +21,16 @@ from fieldhand.planning.planner import Planned, Planner
 Planners = Callable[[str], Planner]
 
 
-def router(workers: Workers, planners: Planners) -> APIRouter:
+def router(workers: Workers, planners: Planners, record: Record) -> APIRouter:
     """``POST /plan``."""
     routes = APIRouter(tags=["mission"])
 
     @routes.post("/plan")
-    async def plan(body: PlanBody) -> dict[str, Any]:
+    async def plan(body: PlanBody, caller: Annotated[Caller, Depends(require(Scope.PLAN))]) -> dict[str, Any]:
         """Plan a request: what was understood, where, and what it will take."""
-        return await workers.do(lambda: _plan(body, planners))
+        answer = await workers.do(lambda: _plan(body, planners), caller.name)
+        await record(caller, "plan", body.request, outcome=answer["outcome"], task=answer.get("task", ""))
+        return answer
 
     return routes
 

@@ -3,17 +3,22 @@
 If warnings were not confirmed, ``warnings`` lists them.
 
 400  the input cannot be used (every InputError)
-403  the request comes from a page of another site, or addresses another host name
+401  no valid session or token
+403  the request comes from a page of another site, or addresses another host name; the caller lacks a scope
 404, 405  unknown address, method not allowed
 408  the body is too slow
 413  the body is too large
 422  the body does not match the model; the mission is not approved; the robot cannot carry it out
+429  too many attempts to log in
 500  fault of the program, described in the log of the server
-503  too much work at the same time
+503  too much work at the same time; the database cannot be used
+
+Messages are in the first known language of the request's ``Accept-Language``, else in English.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from http import HTTPStatus
 from typing import Any
@@ -23,8 +28,9 @@ from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
 from starlette.responses import JSONResponse, Response
 
-from fieldhand.errors import FieldhandError, InputError, NotConfirmedError
+from fieldhand.errors import DatabaseError, FieldhandError, InputError, NotConfirmedError
 from fieldhand.hidden_characters import json_text, visible_json
+from fieldhand.language import ENGLISH, Language, languages, open_language
 
 MEDIA_TYPE = "application/problem+json"
 
@@ -53,12 +59,14 @@ class RefusedRequest(Exception):
         status: HTTP status.
         what: Reason in words, without a full stop.
         advice: Advice to the client.
+        where: Location in the request; empty if there is none.
     """
 
-    def __init__(self, status: int, what: str, advice: str = "") -> None:
+    def __init__(self, status: int, what: str, advice: str = "", where: str = "") -> None:
         self.status = status
         self.what = what
         self.advice = advice
+        self.where = where
         super().__init__(what)
 
 
@@ -77,13 +85,19 @@ def answer_problems(app: FastAPI) -> None:
     """Register handlers that turn every error of the application into a response."""
 
     @app.exception_handler(FieldhandError)
-    async def _known(_: Request, error: FieldhandError) -> Response:
+    async def _known(request: Request, error: FieldhandError) -> Response:
         more = {"warnings": error.warnings} if isinstance(error, NotConfirmedError) else {}
-        return problem(400 if isinstance(error, InputError) else 422, error.what, error.where, error.advice, **more)
+        status = 503 if isinstance(error, DatabaseError) else 400 if isinstance(error, InputError) else 422
+        say = _asked_language(request).say
+        return problem(status, say(error.what), error.where, say(error.advice), **more)
 
     @app.exception_handler(RefusedRequest)
-    async def _refused(_: Request, error: RefusedRequest) -> Response:
-        return problem(error.status, error.what, advice=error.advice)
+    async def _refused(request: Request, error: RefusedRequest) -> Response:
+        say = _asked_language(request).say
+        response = problem(error.status, say(error.what), error.where, say(error.advice))
+        if error.status == 401:
+            response.headers["WWW-Authenticate"] = "Bearer"
+        return response
 
     @app.exception_handler(RequestValidationError)
     async def _shape(_: Request, error: RequestValidationError) -> Response:
@@ -106,6 +120,15 @@ def answer_problems(app: FastAPI) -> None:
         if error.status_code == 503:
             return problem(503, "too many large requests at once", "body", "try again in a moment")
         return problem(error.status_code, HTTPStatus(error.status_code).phrase.lower())
+
+
+def _asked_language(request: Request) -> Language:
+    """Return the first language of ``Accept-Language`` that has a catalogue, else English."""
+    for wanted in request.headers.get("accept-language", "")[:200].split(","):
+        code = re.split(r"[;-]", wanted.strip().lower())[0]
+        if code in languages():
+            return open_language(code)
+    return ENGLISH
 
 
 def _error_text(error: dict[str, Any]) -> str:

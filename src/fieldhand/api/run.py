@@ -8,12 +8,14 @@ import time
 from collections.abc import Callable
 from dataclasses import asdict
 from datetime import datetime
-from typing import Any
+from typing import Annotated, Any
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Depends
 
 from fieldhand import mission
 from fieldhand.api.answers import unplanned_answer
+from fieldhand.api.audit import Record
+from fieldhand.api.callers import Caller, Scope, approver, require
 from fieldhand.api.earlier import records_of, with_logs
 from fieldhand.api.inputs import RunBody, answers_of, open_site_and_robot, open_task
 from fieldhand.api.maps import driven_map
@@ -29,19 +31,24 @@ from fieldhand.task.results import Ended
 from fieldhand.wording.events import EventText, goal_names
 
 
-def router(workers: Workers, planners: Planners, limits: Limits) -> APIRouter:
+def router(workers: Workers, planners: Planners, limits: Limits, record: Record) -> APIRouter:
     """``POST /run``."""
     routes = APIRouter(tags=["mission"])
 
     @routes.post("/run")
-    async def run(body: RunBody) -> dict[str, Any]:
+    async def run(body: RunBody, caller: Annotated[Caller, Depends(require(Scope.APPROVE))]) -> dict[str, Any]:
         """Approve a mission in the name of an operator, simulate it and judge it."""
-        return await workers.do(lambda: _run(body, planners, limits))
+        by = approver(caller, body.approved_by)
+        answer = await workers.do(lambda: _run(body, by, planners, limits), caller.name)
+        if answer["outcome"] == "ran":
+            authorization = answer["authorization"]
+            await record(caller, "approve and simulate", authorization["task_sha256"], approved_by=by, seed=body.seed)
+        return answer
 
     return routes
 
 
-def _run(body: RunBody, planners: Planners, limits: Limits) -> dict[str, Any]:
+def _run(body: RunBody, by: str, planners: Planners, limits: Limits) -> dict[str, Any]:
     from fieldhand.execution.drivers.simulation.world import World
     from fieldhand.execution.drivers.simulation.world_file import parse_world
 
@@ -65,7 +72,7 @@ def _run(body: RunBody, planners: Planners, limits: Limits) -> dict[str, Any]:
         task = with_logs(task, body.earlier, site_and_robot.site)
     approved = mission.authorize(
         mission.review(task, site_and_robot.site, site_and_robot.robot),
-        by=body.approved_by,
+        by=by,
         at=datetime.now(UTC),
         confirmed=body.confirmed,
         language=body.lang,

@@ -6,7 +6,7 @@ import ipaddress
 import logging
 import sys
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
@@ -23,13 +23,16 @@ if TYPE_CHECKING:
     from fieldhand.api.connections import Connections
 
 
-def require_extra() -> None:
-    """Require that the optional packages for serving are installed.
+def require_extra(*packages: str) -> None:
+    """Require that optional packages for serving are installed.
+
+    Args:
+        packages: Names of the packages; those that every server needs if there are none.
 
     Raises:
         InputError: One is missing.
     """
-    for package in ("fastapi", "uvicorn"):
+    for package in packages or ("fastapi", "uvicorn"):
         if find_spec(package) is None:
             raise InputError(
                 f"serving needs a package that is not installed ({package})",
@@ -52,13 +55,23 @@ def hosts_for(host: str) -> frozenset[str] | None:
     return frozenset({"localhost", "127.0.0.1", "::1", host}) if is_loopback(host) else None
 
 
-def serve_forever(app: FastAPI, host: str, port: int, *, on_start: Callable[[], object] = lambda: None) -> None:
-    """Print the address and serve until Ctrl-C; warn if other machines can reach the address.
+def serve_forever(
+    app: FastAPI,
+    host: str,
+    port: int,
+    *,
+    tls: tuple[Path, Path] | None = None,
+    lines: Callable[[str], Iterable[str]] = lambda _: (),
+    on_start: Callable[[], object] = lambda: None,
+) -> None:
+    """Print the address and serve until Ctrl-C.
 
     Args:
         app: The application.
         host: Address to listen on.
         port: Port to listen on.
+        tls: Files of certificate and key (PEM); None for HTTP.
+        lines: Returns more lines to print, for the URL of the server.
         on_start: Called once the address is known to be free.
 
     Raises:
@@ -67,12 +80,11 @@ def serve_forever(app: FastAPI, host: str, port: int, *, on_start: Callable[[], 
     log_visibly()
     require_free(host, port)
     shown = f"[{host}]" if ":" in host else host
-    print_error(f"Fieldhand is at http://{shown}:{port}/ (Ctrl-C to stop)")
-    if not is_loopback(host):
-        print_error("warning: everyone who reaches this address can plan and simulate missions; there is no login")
+    url = f"http{'s' if tls else ''}://{shown}:{port}/"
+    print_error(f"Fieldhand is at {url} (Ctrl-C to stop)", *lines(url))
     on_start()
     with suppress(KeyboardInterrupt):
-        make_server(app, host, port).run()
+        make_server(app, host, port, tls=tls).run()
 
 
 def make_server(

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Depends
 
+from fieldhand.api.callers import Caller, Scope, require
 from fieldhand.api.inputs import SiteBody, open_choice
 from fieldhand.api.maps import site_map
 from fieldhand.api.work import Workers
@@ -16,9 +17,9 @@ def router(workers: Workers) -> APIRouter:
     routes = APIRouter(tags=["site"])
 
     @routes.post("/site")
-    async def site(body: SiteBody) -> dict[str, Any]:
+    async def site(body: SiteBody, caller: Annotated[Caller, Depends(require(Scope.READ))]) -> dict[str, Any]:
         """Return trees, markers, zones and attributes of a site, and the notes of its reader."""
-        return await workers.do(lambda: _site(body))
+        return await workers.do(lambda: _site(body), caller.name)
 
     return routes
 

@@ -39,7 +39,7 @@ _COMMANDS: Final = {
 _RENAMED: Final = {"import": ("import_tree", "import_tree"), "return": ("tell", "come_home")}
 
 #: Groups of commands, each with its module.
-_GROUPS: Final = {"export": "exports", "robot": "robot", "keys": "keys"}
+_GROUPS: Final = {"export": "exports", "robot": "robot", "keys": "keys", "accounts": "accounts"}
 
 
 def assemble(*others: Callable[..., None], only: str | None = None) -> typer.Typer:

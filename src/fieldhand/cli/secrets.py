@@ -7,9 +7,11 @@ import os
 import typer
 
 from fieldhand.cli.inputs import may_ask
-from fieldhand.errors import KeyFileError
+from fieldhand.errors import InputError, KeyFileError
+from fieldhand.language import message
 
 VARIABLE = "FIELDHAND_KEY_PASSPHRASE"
+PASSWORD_VARIABLE = "FIELDHAND_PASSWORD"  # noqa: S105  the name of a variable
 
 
 def new_passphrase(*, asked: bool) -> str | None:
@@ -29,6 +31,24 @@ def new_passphrase(*, asked: bool) -> str | None:
     if not may_ask():
         raise KeyFileError("a passphrase cannot be asked for without a terminal", advice=f"put it in {VARIABLE}")
     typed: str = typer.prompt("Passphrase", hide_input=True, confirmation_prompt=True, err=True)
+    return typed
+
+
+def new_account_password() -> str:
+    """Return the new password of an account, from the environment or typed twice.
+
+    Raises:
+        InputError: A password must be typed, and standard input is not a terminal.
+    """
+    given = os.environ.get(PASSWORD_VARIABLE)
+    if given:
+        return given
+    if not may_ask():
+        raise InputError(
+            message("a password cannot be asked for without a terminal"),
+            advice=message("give --generate, or put it in {variable}", variable=PASSWORD_VARIABLE),
+        )
+    typed: str = typer.prompt("Password", hide_input=True, confirmation_prompt=True, err=True)
     return typed
 
 

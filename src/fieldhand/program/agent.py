@@ -81,13 +81,14 @@ def agent(
     from fieldhand.cli.driver_options import connection_of, parse_speed, refuse_simulation_options
     from fieldhand.delivery.agent_token import read_token
     from fieldhand.program.robot_agent import compose_robot_agent
+    from fieldhand.program.tls_files import tls_files
 
     require_extra()
     speed = parse_speed(simulation.speed or "1")
     connection = connection_of(driver, os.environ)
     refuse_simulation_options(connection, world=simulation.world, speed=simulation.speed)
     token = read_token(os.environ, listen.token_file)
-    tls = _tls(listen.cert, listen.key)
+    tls = tls_files(listen.cert, listen.key, ("--cert", "--key"))
     _require_protected(listen.host, token=token is not None, tls=tls is not None, insecure=listen.insecure)
     require_free(listen.host, listen.port)
     robot_agent = compose_robot_agent(
@@ -132,34 +133,6 @@ def create_app(robot_agent: RobotAgent, *, token: str | None, host: str) -> Fast
 
 def _warn(line: str) -> None:
     print_error(f"warning: {line}")
-
-
-def _tls(cert: Path | None, key: Path | None) -> tuple[Path, Path] | None:
-    """Return certificate and key of the server, once they were loaded for a test; None if neither is given.
-
-    Raises:
-        InputError: Only one is given, or they cannot be used.
-        KeyFileError: Other users can read the key.
-    """
-    import ssl
-
-    from fieldhand.approval.keys.rights import read_guarded
-
-    if cert is None and key is None:
-        return None
-    if cert is None or key is None:
-        raise InputError("TLS needs a certificate and its key", advice="give both --cert and --key")
-    read_guarded(key, private=True)
-    try:
-        # Without a password function, ssl would ask for a passphrase at a terminal, which a robot does not have.
-        ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER).load_cert_chain(cert, key, password=lambda: "")
-    except (OSError, ValueError) as error:
-        raise InputError(
-            f"certificate and key cannot be used: {error}",
-            where=f"{cert}, {key}",
-            advice="give a PEM certificate and its own key, without a passphrase",
-        ) from None
-    return cert, key
 
 
 def _require_protected(host: str, *, token: bool, tls: bool, insecure: bool) -> None:

@@ -1,0 +1,1 @@
+"""Accounts of the server: people with a password and a role, their sessions and tokens, and the audit log."""

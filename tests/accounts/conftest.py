@@ -1,0 +1,5 @@
+"""The databases that these tests run on."""
+
+from support.databases import database, servers, url
+
+__all__ = ["database", "servers", "url"]
