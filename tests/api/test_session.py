@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import asyncio
 from http.cookies import SimpleCookie
 
+import anyio
 import pytest
 from fastapi import FastAPI
 
 from fieldhand.accounts.accounts import Accounts
 from fieldhand.accounts.roles import Role, Scope
 from support.databases import PASSWORD, Calendar
-from support.processes.logins import COOKIE, Visitor, logged_in
+from support.processes.logins import COOKIE, DEVICE, Visitor, logged_in, server_of
+from support.processes.patience import LONG_S
 
 
 def test_name_and_password_open_a_session(app: FastAPI, accounts: Accounts) -> None:
@@ -35,13 +38,16 @@ def test_no_script_and_no_other_site_has_the_cookie(
 ) -> None:
     accounts.people.add("Ada", PASSWORD, Role.PLANNER)
     visitor = Visitor(app, scheme=scheme)
-    cookie = SimpleCookie(visitor.login("Ada").headers["set-cookie"])[COOKIE]
-    assert cookie["httponly"] is True
-    assert cookie["samesite"] == "strict"
-    assert cookie["path"] == "/"
-    assert bool(cookie["secure"]) is secure
-    assert cookie["domain"] == ""
-    assert cookie.value not in visitor.call("GET", "/session").text
+    given = [SimpleCookie(text) for text in visitor.login("Ada").headers.get_list("set-cookie")]
+    cookies = {name: cookie for one in given for name, cookie in one.items()}
+    assert {name: cookie["path"] for name, cookie in cookies.items()} == {COOKIE: "/", DEVICE: "/api/v1/session"}
+    shown = visitor.call("GET", "/session").text
+    for cookie in cookies.values():
+        assert cookie["httponly"] is True
+        assert cookie["samesite"] == "strict"
+        assert bool(cookie["secure"]) is secure
+        assert cookie["domain"] == ""
+        assert cookie.value not in shown
 
 
 @pytest.mark.parametrize(("name", "password"), [("Ada", "wrong"), ("Bob", PASSWORD), ("", ""), ("local", PASSWORD)])
@@ -63,6 +69,50 @@ def test_guesses_do_not_fill_the_log_and_lock_nobody_out(app: FastAPI, accounts:
     recorded = [e.details["wrong_from_this_address"] for e in accounts.audit.entries() if e.what == "login failed"]
     assert recorded == [32, 16, 8, 4, 2, 1]
     assert visitor.login("Ada").status_code == 200
+
+
+def test_a_browser_that_was_logged_in_before_does_not_wait_for_guesses(accounts: Accounts) -> None:
+    """A guess from the same address on the same account is never answered, and what comes after it waits."""
+
+    async def never(_: float) -> None:
+        await anyio.sleep_forever()
+
+    app = server_of(accounts, never)
+    for name in ("Ada", "Bob"):
+        accounts.people.add(name, PASSWORD, Role.PLANNER)
+    known, stranger = Visitor(app), Visitor(app)
+    assert known.login("Ada").status_code == 200
+    known.cookie = ""
+    nonce, _, proof = known.device.partition(".")
+    right = {"name": "ada", "password": PASSWORD}
+
+    async def both() -> None:
+        async with anyio.create_task_group() as group:
+            group.start_soon(stranger.send, "POST", "/session", {"name": "Ada", "password": "wrong"})
+            with anyio.move_on_after(LONG_S):
+                while not accounts.audit.entries(what="login failed"):
+                    await anyio.sleep(0.01)
+            for device in ("", "x", ".", f"{nonce}.", f".{proof}", f"{nonce}x.{proof}", f"{nonce}.{proof[::-1]}"):
+                stranger.device = device
+                with anyio.move_on_after(0.3) as kept_waiting:
+                    await stranger.send("POST", "/session", right)
+                assert kept_waiting.cancelled_caught, device
+            assert (await known.send("POST", "/session", right)).status_code == 200
+            group.cancel_scope.cancel()
+
+    asyncio.run(asyncio.wait_for(both(), LONG_S))
+
+
+def test_what_proves_a_browser_is_of_one_account_and_one_password(accounts: Accounts) -> None:
+    for name in ("Ada", "Bob"):
+        accounts.people.add(name, PASSWORD, Role.PLANNER)
+    proof = accounts.people.device_proof("Ada", "n")
+    assert accounts.people.device_proof("ADA", "n") == proof
+    assert accounts.people.device_proof("Ada", "m") != proof
+    assert accounts.people.device_proof("Bob", "n") != proof
+    assert accounts.people.device_proof("Zoe", "n") != accounts.people.device_proof("Zoe", "n")
+    accounts.people.set_password("Ada", "another four pears")
+    assert accounts.people.device_proof("Ada", "n") != proof
 
 
 def test_errors_are_in_the_language_that_the_browser_asks_for(app: FastAPI) -> None:

@@ -12,6 +12,7 @@ from sqlalchemy import Connection, Row, delete, insert, select, update
 from sqlalchemy.exc import IntegrityError
 
 from fieldhand.accounts.passwords import Passwords, require_strong
+from fieldhand.accounts.random_secrets import new_secret, proof_of
 from fieldhand.accounts.roles import Role
 from fieldhand.database.connection import Database
 from fieldhand.database.tables import ACCOUNTS, SESSIONS
@@ -107,6 +108,19 @@ class People:
         if self._passwords.outdated(stored):
             self._store_hash(row.id, stored, self._passwords.hashed(password))
         return _account(row)
+
+    def device_proof(self, name: str, nonce: str) -> str:
+        """Return the proof that a browser has logged in to an account before.
+
+        It is derived from the hash of the password, so that nothing is stored and another password ends it.
+
+        Args:
+            name: Name of the account; without such an account the proof is one that no browser has.
+            nonce: Random text of the browser.
+        """
+        with self._database.transaction(reading=True) as connection:
+            stored = connection.execute(select(ACCOUNTS.c.password_hash).where(ACCOUNTS.c.key == key_of(name))).scalar()
+        return proof_of(str(stored or new_secret()), nonce)
 
     def change(self, name: str, *, role: Role | None = None, language: str | None = None) -> Account:
         """Change the role or the language of an account; sessions and tokens have the new role at once.

@@ -33,6 +33,11 @@ def csrf_of(session: str) -> str:
     return hmac.new(session.encode("utf-8", "surrogatepass"), b"fieldhand csrf", hashlib.sha256).hexdigest()
 
 
+def proof_of(key: str, nonce: str) -> str:
+    """Return the proof that whoever has this nonce got it from who knows a key."""
+    return hmac.new(key.encode(), b"fieldhand device " + nonce.encode("utf-8", "surrogatepass"), "sha256").hexdigest()
+
+
 def same(given: str, wanted: str) -> bool:
     """Return True for equal texts, in a time that does not depend on where they differ."""
     return hmac.compare_digest(given.encode("utf-8", "surrogatepass"), wanted.encode("utf-8", "surrogatepass"))

@@ -33,6 +33,7 @@ __all__ = [
     "CredentialGate",
     "Scope",
     "approver",
+    "cookie_of",
     "is_still_allowed",
     "require",
     "secret_of",
@@ -157,7 +158,7 @@ async def is_still_allowed(request: Request, scope: Scope) -> bool:
 
 def secret_of(request: Request) -> str:
     """Return the secret of the session in a request's cookie; empty if there is none."""
-    return _cookie(request.headers)
+    return cookie_of(request.headers, COOKIE)
 
 
 def _admitted(found: object, scope: Scope) -> Caller:
@@ -222,7 +223,7 @@ async def _by_token(secret: str, address: str, service: AccountService) -> Calle
 
 
 async def _by_cookie(method: str, headers: Headers, address: str, service: AccountService) -> Caller | RefusedRequest:
-    secret = _cookie(headers)
+    secret = cookie_of(headers, COOKIE)
     session = await service.do(lambda: service.accounts.sessions.find(secret)) if secret else None
     if session is None:
         return _login_first()
@@ -251,9 +252,10 @@ def _login_first() -> RefusedRequest:
     )
 
 
-def _cookie(headers: Headers) -> str:
+def cookie_of(headers: Headers, name: str) -> str:
+    """Return the value of a cookie; empty if there is none."""
     try:
-        found = SimpleCookie(headers.get("cookie", "")).get(COOKIE)
+        found = SimpleCookie(headers.get("cookie", "")).get(name)
     except CookieError:
         return ""
     return "" if found is None else found.value

@@ -2,7 +2,8 @@
 
 Nobody is locked out. Attempts on one account from one address take turns, and after a wrong one the next turn waits.
 So whoever guesses is slow, and delays only those who try the same account from the same address; they are served in
-random order, so that no number of guesses keeps the right password away.
+random order, so that no number of guesses keeps the right password away. A browser in which the account has logged in
+before counts as an address of its own ("device cookies"), and does not wait for guesses at all.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ class LoginLimits:
     """
 
     delay_s: float = 0.25
-    longest_s: float = 2.0
+    longest_s: float = 1.0
     forgotten_s: float = 900.0
     at_once: int = 2
     waiting: int = 64

@@ -2,24 +2,28 @@
 
 from __future__ import annotations
 
-from datetime import datetime
+from datetime import datetime, timedelta
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Depends, Request, Response
 from pydantic import Field
 
 from fieldhand.accounts.people import LOCAL, Account, key_of
-from fieldhand.accounts.random_secrets import csrf_of
+from fieldhand.accounts.random_secrets import csrf_of, new_secret, same
 from fieldhand.accounts.roles import sorted_scopes
 from fieldhand.accounts.sessions import LoginSession
 from fieldhand.api.account_service import AccountService
-from fieldhand.api.callers import COOKIE, Caller, Scope, require, secret_of
+from fieldhand.api.callers import COOKIE, Caller, Scope, cookie_of, require, secret_of
 from fieldhand.api.inputs import Body, Lang, Text
 from fieldhand.api.problems import RefusedRequest
 from fieldhand.language import message
 
 #: A password as it was typed; the largest that can be right is shorter.
 Password = Annotated[Text, Field(max_length=1000)]
+#: Cookie of a browser in which an account has logged in, and the time for which it is kept.
+DEVICE_COOKIE = "fieldhand_device"
+_DEVICE = timedelta(days=400)
+_SESSION_PATH = "/api/v1/session"
 _CodeText = Annotated[Text, Field(max_length=200)]
 
 
@@ -136,6 +140,8 @@ def router(service: AccountService) -> APIRouter:
 async def _attempt(service: AccountService, request: Request, name: str, password: str) -> Account | None:
     """Verify name and password, and record it if they are wrong."""
     address, people = _address(request), service.accounts.people
+    nonce, _, proof = cookie_of(request.headers, DEVICE_COOKIE).partition(".")
+    known = bool(proof) and same(proof, await service.do(lambda: people.device_proof(name, nonce)))
 
     async def verify() -> Account | None:
         return await service.do(lambda: people.verify(name, password))
@@ -146,7 +152,7 @@ async def _attempt(service: AccountService, request: Request, name: str, passwor
             log = service.accounts.audit
             await service.do(lambda: log.add(name, "login failed", address=address, wrong_from_this_address=count))
 
-    return await service.throttle.attempt(address, key_of(name), verify, record)
+    return await service.throttle.attempt(f"device {nonce}" if known else address, key_of(name), verify, record)
 
 
 async def _open(
@@ -156,15 +162,20 @@ async def _open(
     accounts, address = service.accounts, _address(request)
     secret, session = await service.do(lambda: accounts.sessions.open(account))
     means = "code" if account is None else "password"
+    if account is not None:
+        nonce = new_secret()
+        proof = await service.do(lambda: accounts.people.device_proof(account.name, nonce))
+        _set_cookie(request, response, DEVICE_COOKIE, f"{nonce}.{proof}", session.expires_at + _DEVICE, _SESSION_PATH)
     await service.do(lambda: accounts.audit.add(session.name, "login", address=address, means=means))
-    _set_cookie(request, response, secret, session.expires_at)
+    _set_cookie(request, response, COOKIE, secret, session.expires_at)
     return _session_answer(session, secret)
 
 
-def _set_cookie(request: Request, response: Response, secret: str, expires_at: datetime) -> None:
-    response.set_cookie(
-        COOKIE, secret, expires=expires_at, path="/", secure=_is_tls(request), httponly=True, samesite="strict"
-    )
+def _set_cookie(
+    request: Request, response: Response, name: str, value: str, expires_at: datetime, path: str = "/"
+) -> None:
+    secure = _is_tls(request)
+    response.set_cookie(name, value, expires=expires_at, path=path, secure=secure, httponly=True, samesite="strict")
 
 
 def _session_answer(session: LoginSession, secret: str) -> dict[str, Any]:

@@ -50,7 +50,7 @@ def add(
     from fieldhand.cli import show
 
     with _opened() as store:
-        wanted, password = parse_role(role), _password(generate=generate)
+        wanted, password = parse_role(role), _password(_language(lang), generate=generate)
         account = store.people.add(name, password, wanted, language)
         store.audit.add(_LOCAL, "account added", account.name, role=account.role.value)
     if json:
@@ -110,7 +110,7 @@ def password(
 
     with _opened() as store:
         store.people.find(name)
-        new = _password(generate=generate)
+        new = _password(_language(lang), generate=generate)
         account = store.people.set_password(name, new)
         store.audit.add(_LOCAL, "password", account.name)
     if json:
@@ -210,7 +210,7 @@ def _opened() -> Iterator[Accounts]:
         store.close()
 
 
-def _password(*, generate: bool) -> str:
+def _password(language: Language, *, generate: bool) -> str:
     """Return a new password: random, from the environment, or typed twice.
 
     Raises:
@@ -219,7 +219,7 @@ def _password(*, generate: bool) -> str:
     from fieldhand.accounts.random_secrets import new_password
     from fieldhand.cli.secrets import new_account_password
 
-    return new_password() if generate else new_account_password()
+    return new_password() if generate else new_account_password(language)
 
 
 def _print_password(password: str, language: Language, *, generate: bool) -> None:

@@ -8,7 +8,7 @@ import typer
 
 from fieldhand.cli.inputs import may_ask
 from fieldhand.errors import InputError, KeyFileError
-from fieldhand.language import message
+from fieldhand.language import Language, message
 
 VARIABLE = "FIELDHAND_KEY_PASSPHRASE"
 PASSWORD_VARIABLE = "FIELDHAND_PASSWORD"  # noqa: S105  the name of a variable
@@ -34,8 +34,11 @@ def new_passphrase(*, asked: bool) -> str | None:
     return typed
 
 
-def new_account_password() -> str:
+def new_account_password(language: Language) -> str:
     """Return the new password of an account, from the environment or typed twice.
+
+    Args:
+        language: Language to ask in.
 
     Raises:
         InputError: A password must be typed, and standard input is not a terminal.
@@ -48,7 +51,8 @@ def new_account_password() -> str:
             message("a password cannot be asked for without a terminal"),
             advice=message("give --generate, or put it in {variable}", variable=PASSWORD_VARIABLE),
         )
-    typed: str = typer.prompt("Password", hide_input=True, confirmation_prompt=True, err=True)
+    again = language.say(message("The same again"))
+    typed: str = typer.prompt(language.say(message("Password")), hide_input=True, confirmation_prompt=again, err=True)
     return typed
 
 

@@ -21,7 +21,7 @@ from fieldhand.planning.planner import Planned
 from support.databases import PASSWORD
 from support.processes.browser import LOCAL, Says, corner_task
 
-COOKIE = "fieldhand_session"
+COOKIE, DEVICE = "fieldhand_session", "fieldhand_device"
 
 
 async def no_time(_: float) -> None:
@@ -44,11 +44,13 @@ class Visitor:
     def __init__(self, app: FastAPI, *, address: str = "127.0.0.1", scheme: str = "http") -> None:
         self.app, self.address, self.scheme = app, address, scheme
         self.cookie, self.csrf, self.token = "", "", ""
+        self.device = ""
 
     def headers(self) -> dict[str, str]:
-        found = {}
+        cookies = {COOKIE: self.cookie, DEVICE: self.device}
+        found = {"cookie": "; ".join(f"{name}={value}" for name, value in cookies.items() if value)}
         if self.cookie:
-            found |= {"cookie": f"{COOKIE}={self.cookie}", "x-fieldhand-csrf": self.csrf}
+            found["x-fieldhand-csrf"] = self.csrf
         if self.token:
             found["authorization"] = f"Bearer {self.token}"
         return found
@@ -67,9 +69,12 @@ class Visitor:
         async with httpx.AsyncClient(transport=transport, base_url=f"{self.scheme}://localhost:8000") as client:
             answer = await client.request(method, f"/api/v1{path}", headers=headers, **options)
         # A cookie jar would drop a cookie that has expired by the computer's clock.
-        cookie = SimpleCookie(answer.headers.get("set-cookie", "")).get(COOKIE)
-        if cookie is not None:
-            self.cookie, self.csrf = cookie.value, answer.json().get("csrf", "")
+        for text in answer.headers.get_list("set-cookie"):
+            for name, cookie in SimpleCookie(text).items():
+                if name == COOKIE:
+                    self.cookie, self.csrf = cookie.value, answer.json().get("csrf", "")
+                else:
+                    self.device = cookie.value
         return answer
 
     def login(self, name: str, password: str = PASSWORD) -> httpx.Response:
