@@ -163,8 +163,8 @@ class Fleet:
         if missions.status(folder).now.state == "ended":
             raise ExecutionError(message("the mission has ended"), where=folder.name)
         if command == "pause" and not alive:
-            why = message("the mission is interrupted: nothing moves the robot; resume it first")
-            return CommandAnswer(confirmed=False, sent=False, why=why)
+            still = message("the mission is interrupted: nothing moves the robot; resume it first")
+            return CommandAnswer(confirmed=False, sent=False, why=still)
         if command != "resume":
             missions.send_command(folder, command, by)
         elif missions.last_command(folder) in (("pause", "return", "abort") if alive else ("pause",)):
