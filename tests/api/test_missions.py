@@ -10,14 +10,17 @@ from typing import Any
 import pytest
 
 from fieldhand import missions
+from fieldhand.accounts.accounts import Accounts
+from fieldhand.accounts.roles import Role
 from fieldhand.execution.drivers.simulation.world_file import parse_world
 from fieldhand.fleet import Fleet
 from fieldhand.planning.planner import Reason, Refused
 from fieldhand.site.loader import built_in_path
 from fieldhand.task.event_lines import from_json
-from support.missions.fleet import until_over
+from support.missions.fleet import FAST, until_over
 from support.missions.kept import inputs
 from support.processes.browser import Browser, Says, browser, corner_warnings, corner_xml
+from support.processes.logins import Visitor, logged_in, server_of
 
 #: One reading of CO2 at tree 5.
 BODY = {
@@ -215,3 +218,41 @@ def test_another_machine_may_do_nothing(done: tuple[Browser, str]) -> None:
         address = path.replace("{name}", done[1]).replace("{image}", "x.png")
         body = {"json": {**BODY} if path.endswith("missions") else {"command": "abort"}} if method == "post" else {}
         assert stranger.call(method.upper(), address, **body).status_code == 403, path
+
+
+#: The least role that may call each route; every account may call the others.
+LEAST = {"post /missions": Role.APPROVER, "post /missions/{name}/commands": Role.APPROVER}
+
+
+def test_a_role_does_what_it_may_and_the_audit_log_names_who_did_it(
+    accounts: Accounts, still: tuple[Browser, Path]
+) -> None:
+    fleet = Fleet(still[1])
+    app = server_of(accounts, fleet=fleet)
+    name = fleet.begin(inputs(), FAST)
+    paths = app.openapi()["paths"]
+    live = [(path.removeprefix("/api/v1"), way) for path in paths for way in paths[path] if "/missions" in path]
+    assert len(live) >= 9
+    for role in Role:
+        visitor = logged_in(app, accounts, role)
+        for path, way in live:
+            address = path.replace("{name}", name).replace("{image}", "x.png")
+            body = None if way == "get" else {"command": "pause"} if path.endswith("commands") else {"xml": BODY["xml"]}
+            answer = visitor.call(way.upper(), address, body)
+            least = LEAST.get(f"{way} {path}", Role.VIEWER)
+            allowed = tuple(Role).index(role) >= tuple(Role).index(least)
+            assert (answer.status_code not in (401, 403)) is allowed, (role, way, path, answer.text)
+            assert Visitor(app).call(way.upper(), address, body).status_code == 401
+    done = [(entry.who, entry.what, entry.about) for entry in accounts.audit.entries() if entry.what == "pause"]
+    assert done == [("Admin", "pause", name), ("Approver", "pause", name)]
+
+
+def test_an_account_approves_under_its_own_name(accounts: Accounts, still: tuple[Browser, Path]) -> None:
+    folder = still[1]
+    ada = logged_in(server_of(accounts, fleet=Fleet(folder)), accounts, Role.APPROVER, "Ada")
+    assert ada.call("POST", "/missions", BODY).status_code == 403
+    answer = ada.call("POST", "/missions", {**BODY, "approved_by": "Ada"})
+    assert answer.status_code == 201, answer.text
+    assert missions.open_mission(folder / answer.json()["id"]).authorized.authorization.by == "Ada"
+    (entry,) = [e for e in accounts.audit.entries() if e.what == "approve and begin"]
+    assert (entry.who, entry.about) == ("Ada", answer.json()["id"])

@@ -13,8 +13,6 @@ import urllib.error
 import urllib.request
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
-from http.client import HTTPResponse
 from pathlib import Path
 from typing import Any
 
@@ -73,6 +71,54 @@ def test_serves_page_and_api_on_this_machine_alone() -> None:
             fetch(port, "/api/v1/robots")
 
 
+def test_ctrl_c_ends_the_server_and_not_its_missions(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Another server finds the mission, still carried out by the same process, and commands it."""
+    monkeypatch.setenv("FIELDHAND_MISSIONS", str(tmp_path))
+    body = {"xml": inputs().document.decode(), "confirmed": list(inputs().authorized.authorization.confirmed)}
+    with serving() as (_, server):
+        local = LocalCaller(server)
+        name = local.call("missions", {**body, "approved_by": "Ana", "speed": 2})["id"]
+        stream = local.open("stream")
+        stream.readline()
+        until(lambda: local.call(f"missions/{name}/events")["state"] == "running")
+        pid = worker_pid(tmp_path / name)
+        os.killpg(server.pid, signal.SIGINT)
+        server.wait(LONG_S)
+        stream.close()
+    assert worker_pid(tmp_path / name) == pid
+    with serving() as (_, server):
+        local = LocalCaller(server)
+        (found,) = local.call("missions")
+        assert (found["id"], found["state"]) == (name, "running")
+        assert worker_pid(tmp_path / name) == pid
+        answer = local.call(f"missions/{name}/commands", {"command": "abort"})
+        assert (answer["confirmed"], answer["by"]) == (True, name)
+        until(lambda: local.call(f"missions/{name}/events")["state"] == "ended")
+
+
+class LocalCaller:
+    """Whoever opens the link that a server prints."""
+
+    def __init__(self, server: subprocess.Popen[str]) -> None:
+        self._url, code = link_of(server)
+        port = int(self._url.rstrip("/").rpartition(":")[2])
+        fetch(port, "/")
+        cookies = list[str]()
+        session = post(f"{self._url}api/v1/session/code", {"code": code}, cookies=cookies)
+        self._headers = {"Cookie": cookies[0].partition(";")[0], "X-Fieldhand-CSRF": str(session["csrf"])}
+
+    def open(self, path: str, body: object = None) -> Any:
+        data = None if body is None else json.dumps(body).encode()
+        headers = {**self._headers, "Content-Type": "application/json"}
+        return urllib.request.urlopen(
+            urllib.request.Request(f"{self._url}api/v1/{path}", data, headers), timeout=LONG_S
+        )
+
+    def call(self, path: str, body: object = None) -> Any:
+        with self.open(path, body) as answer:
+            return json.load(answer)
+
+
 def post(
     url: str, body: dict[str, str], trusted: ssl.SSLContext | None = None, cookies: list[str] | None = None
 ) -> dict[str, object]:
@@ -98,67 +144,11 @@ def test_others_can_reach_it_only_with_tls_or_where_somebody_accepts_the_danger(
     assert "--insecure" in refused.err
     with serving("--host", "0.0.0.0", "--insecure") as (port, server):
         url, code = link_of(server)
+        assert server.stderr is not None
+        assert "without TLS" in server.stderr.readline()
         assert url == f"http://127.0.0.1:{port}/"
         fetch(port, "/api/v1/health")
         assert post(f"{url}api/v1/session/code", {"code": code})["name"] == "local"
-
-
-@dataclass
-class LoggedIn:
-    """The local administrator of a server, logged in by the code of its link."""
-
-    port: int
-    cookie: str
-    csrf: str
-
-    def get(self, path: str) -> Any:
-        return json.loads(self._open(path, None).read())
-
-    def post(self, path: str, body: object) -> Any:
-        return json.loads(self._open(path, json.dumps(body).encode()).read())
-
-    def stream(self) -> HTTPResponse:
-        return self._open("stream", None)
-
-    def _open(self, path: str, body: bytes | None) -> HTTPResponse:
-        headers = {"Cookie": self.cookie, "X-Fieldhand-CSRF": self.csrf, "Content-Type": "application/json"}
-        request = urllib.request.Request(f"http://127.0.0.1:{self.port}/api/v1/{path}", body, headers)
-        found = urllib.request.urlopen(request, timeout=LONG_S)
-        assert isinstance(found, HTTPResponse)
-        return found
-
-
-def logged_in(port: int, server: subprocess.Popen[str]) -> LoggedIn:
-    url, code = link_of(server)
-    fetch(port, "/")
-    cookies: list[str] = []
-    session = post(f"{url}api/v1/session/code", {"code": code}, cookies=cookies)
-    return LoggedIn(port, cookies[0].partition(";")[0], str(session["csrf"]))
-
-
-def test_ctrl_c_ends_the_server_and_not_its_missions(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Another server finds the mission, still carried out by the same process, and commands it."""
-    monkeypatch.setenv("FIELDHAND_MISSIONS", str(tmp_path))
-    body = {"xml": inputs().document.decode(), "confirmed": list(inputs().authorized.authorization.confirmed)}
-    with serving() as (port, server):
-        ana = logged_in(port, server)
-        name = ana.post("missions", {**body, "approved_by": "Ana", "speed": 2})["id"]
-        stream = ana.stream()
-        stream.readline()
-        until(lambda: ana.get(f"missions/{name}/events")["state"] == "running")
-        pid = worker_pid(tmp_path / name)
-        os.killpg(server.pid, signal.SIGINT)
-        server.wait(LONG_S)
-        stream.close()
-    assert worker_pid(tmp_path / name) == pid
-    with serving() as (port, server):
-        ana = logged_in(port, server)
-        (found,) = ana.get("missions")
-        assert (found["id"], found["state"]) == (name, "running")
-        assert worker_pid(tmp_path / name) == pid
-        answer = ana.post(f"missions/{name}/commands", {"command": "abort"})
-        assert (answer["confirmed"], answer["by"]) == (True, name)
-        until(lambda: ana.get(f"missions/{name}/events")["state"] == "ended")
 
 
 def test_the_link_opens_a_session_once_over_tls(tmp_path: Path) -> None:

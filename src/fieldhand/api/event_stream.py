@@ -33,12 +33,14 @@ from fieldhand.compatibility import UTC
 from fieldhand.errors import FieldhandError
 from fieldhand.fleet import Fleet, FleetMission, SeenPosition
 from fieldhand.hidden_characters import visible_json
-from fieldhand.language import Language, open_language
+from fieldhand.language import Language, message, open_language
 
 #: Missions that one stream follows at most.
 MOST_MISSIONS = 50
 #: Seconds between two looks, between two heartbeats, and until a page connects again (milliseconds).
 LOOK_S, HEARTBEAT_S, RETRY_MS = 0.2, 1.0, 1000
+#: Seconds between two looks whether the caller may still read.
+ALLOWED_EVERY_S = 10.0
 #: Events of all missions in one answer, about 400 kB.
 _MOST_EVENTS = 400
 #: Threads that read for all streams.
@@ -147,7 +149,12 @@ def router(fleet: Fleet) -> APIRouter:
         named = None if missions is None else tuple(dict.fromkeys(filter(None, missions.split(","))))
         if named is not None:
             if len(named) > MOST_MISSIONS:
-                raise RefusedRequest(422, f"a stream follows at most {MOST_MISSIONS} missions", "name fewer")
+                raise RefusedRequest(
+                    422,
+                    message("a stream follows at most {count} missions", count=MOST_MISSIONS),
+                    message("name fewer"),
+                    "missions",
+                )
             for name in named:
                 if await to_thread.run_sync(fleet.folder, name, limiter=readers) is None:
                     raise no_mission(name)
@@ -156,14 +163,7 @@ def router(fleet: Fleet) -> APIRouter:
         # Between proxies and browsers, nothing may keep or collect the messages.
         headers = {"Cache-Control": "no-store", "X-Accel-Buffering": "no"}
         return StreamingResponse(
-            _sent(
-                source,
-                readers,
-                over=lambda: is_ending(request.scope),
-                allowed=lambda: is_still_allowed(request, Scope.READ),
-            ),
-            media_type="text/event-stream",
-            headers=headers,
+            _sent(source, readers, _over(request)), media_type="text/event-stream", headers=headers
         )
 
     return routes
@@ -179,30 +179,38 @@ def cursor_of(text: str) -> dict[str, int]:
     for part in filter(None, text.split(",")):
         match = _CURSOR.fullmatch(part.strip())
         if match is None or len(found) >= 10 * MOST_MISSIONS:
-            raise RefusedRequest(422, "this is not the id of a message of this stream", "leave it out")
+            raise RefusedRequest(
+                422, message("this is not the id of a message of a stream"), message("leave it out"), "after"
+            )
         found[match["id"]] = int(match["n"])
     return found
 
 
-async def _sent(
-    source: MissionStream,
-    readers: CapacityLimiter,
-    *,
-    over: Callable[[], bool],
-    allowed: Callable[[], Awaitable[bool]],
-) -> AsyncIterator[str]:
-    """Yield the messages of a stream until it is over, or its reader's session or token has ended.
+def _over(request: Request) -> Callable[[], Awaitable[bool]]:
+    """Return a function that returns True once the server ends, or the caller may not read any longer."""
+    asked = anyio.current_time()
 
-    The next messages are read when these were taken.
-    """
+    async def over() -> bool:
+        nonlocal asked
+        if anyio.current_time() >= asked + ALLOWED_EVERY_S:
+            asked = anyio.current_time()
+            if not await is_still_allowed(request, Scope.READ):
+                return True
+        return is_ending(request.scope)
+
+    return over
+
+
+async def _sent(
+    source: MissionStream, readers: CapacityLimiter, over: Callable[[], Awaitable[bool]]
+) -> AsyncIterator[str]:
+    """Yield the messages of a stream until it is over; the next ones are read when these were taken."""
     yield f"retry: {RETRY_MS}\n\n"
     beat = -HEARTBEAT_S
-    while not over():
+    while not await over():
         begun = anyio.current_time()
         if begun >= beat + HEARTBEAT_S:
             beat = begun
-            if not await allowed():
-                return
             yield _message("heartbeat", {"at": datetime.now(UTC).isoformat(timespec="milliseconds")})
         text = await to_thread.run_sync(_joined(source.messages), limiter=readers)
         if text:

@@ -29,7 +29,7 @@ from fieldhand.api.work import Workers
 from fieldhand.approval.production import require_unsigned_allowed
 from fieldhand.compatibility import UTC
 from fieldhand.fleet import Fleet, MissionFeed, WorkerSettings
-from fieldhand.language import open_language
+from fieldhand.language import message, open_language
 from fieldhand.mission.documents import SiteAndRobot
 from fieldhand.planning.planner import Planned
 from fieldhand.task.codec import encode
@@ -48,6 +48,7 @@ REPORT_POLICY = (
 
 MissionId = Annotated[str, InPath(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,99}$")]
 ImageName = Annotated[str, InPath(pattern=r"^[A-Za-z0-9_-]{1,150}\.(png|jpg|tif)$")]
+Reader = Annotated[Caller, Depends(require(Scope.READ))]
 READER = [Depends(require(Scope.READ))]
 Approver = Annotated[Caller, Depends(require(Scope.APPROVE))]
 Commander = Annotated[Caller, Depends(require(Scope.COMMAND))]
@@ -70,7 +71,7 @@ def router(workers: Workers, planners: Planners, fleet: Fleet, record: Record) -
         by = approver(caller, body.approved_by)
         answer = await workers.do(lambda: _begin(body, by, planners, fleet), caller.name)
         if answer["outcome"] == "began":
-            await record(caller, "approve and begin", answer["id"], approved_by=by, seed=body.seed)
+            await record(caller, "approve and begin", answer["id"], approved_by=by, request=answer["request"][:200])
         else:
             response.status_code = 200
         return answer
@@ -80,11 +81,11 @@ def router(workers: Workers, planners: Planners, fleet: Fleet, record: Record) -
         """Return the missions that were begun last, the newest first."""
         return await to_thread.run_sync(lambda: _listed(fleet, limit, lang), limiter=readers)
 
-    @routes.get("/missions/{name}", dependencies=READER)
-    async def one(name: MissionId, lang: Lang = "en") -> dict[str, Any]:
+    @routes.get("/missions/{name}")
+    async def one(name: MissionId, caller: Reader, lang: Lang = "en") -> dict[str, Any]:
         """Return a mission: its state, and what was approved: the plan in words, the forecast and the map."""
         feed = _feed(fleet, name)
-        plan = await workers.do(lambda: _plan(found(name), lang))
+        plan = await workers.do(lambda: _plan(found(name), lang), caller.name)
         state = await to_thread.run_sync(lambda: summary_record(feed, open_language(lang)), limiter=readers)
         return {**plan, **state}
 
@@ -103,7 +104,7 @@ def router(workers: Workers, planners: Planners, fleet: Fleet, record: Record) -
         answer = await to_thread.run_sync(
             partial(fleet.command, folder, body.command, caller.name, wait=_patience()), limiter=commands
         )
-        await record(caller, body.command, name, confirmed=answer.confirmed)
+        await record(caller, body.command, name, confirmed=answer.confirmed, sent=answer.sent)
         return {**asdict(answer), "why": language.say(answer.why)}
 
     @routes.get("/missions/{name}/report", dependencies=READER)
@@ -112,7 +113,9 @@ def router(workers: Workers, planners: Planners, fleet: Fleet, record: Record) -
         path = found(name) / "report.html"
         data = await to_thread.run_sync(lambda: path.read_bytes() if path.is_file() else None, limiter=readers)
         if data is None:
-            raise RefusedRequest(404, "there is no report yet", "it is written when the mission has ended")
+            raise RefusedRequest(
+                404, message("there is no report yet"), message("it is written when the mission has ended")
+            )
         headers = {"Content-Security-Policy": REPORT_POLICY}
         return Response(data, media_type="text/html; charset=utf-8", headers=headers)
 
@@ -122,7 +125,8 @@ def router(workers: Workers, planners: Planners, fleet: Fleet, record: Record) -
         folder = found(name)
         data = await to_thread.run_sync(lambda: missions.image_of(folder, image), limiter=readers)
         if data is None:
-            raise RefusedRequest(404, "there is no such image", "ask for one that an action event of the mission names")
+            advice = message("ask for one that an action event of the mission names")
+            raise RefusedRequest(404, message("there is no such image"), advice)
         kind = {"png": "image/png", "jpg": "image/jpeg", "tif": "image/tiff"}[image.rpartition(".")[2]]
         return Response(data, media_type=kind)
 
@@ -155,7 +159,11 @@ def router(workers: Workers, planners: Planners, fleet: Fleet, record: Record) -
 
 def no_mission(name: str) -> RefusedRequest:
     """Return the refusal for a mission that does not exist."""
-    return RefusedRequest(404, f"there is no mission '{name}'", "GET /api/v1/missions lists them")
+    return RefusedRequest(
+        404,
+        message("there is no mission '{name}'", name=name),
+        message("{route} lists them", route="GET /api/v1/missions"),
+    )
 
 
 def _feed(fleet: Fleet, name: str) -> MissionFeed:

@@ -16,6 +16,7 @@ from fieldhand.accounts.roles import Role
 from fieldhand.api.account_service import AccountService
 from fieldhand.api.app import create_app
 from fieldhand.api.login_throttle import LoginThrottle
+from fieldhand.fleet import Fleet
 from fieldhand.planning.planner import Planned
 from support.databases import PASSWORD
 from support.processes.browser import LOCAL, Says, corner_task
@@ -28,11 +29,13 @@ async def no_time(_: float) -> None:
     await anyio.sleep(0)
 
 
-def server_of(accounts: Accounts, sleep: Callable[[float], Awaitable[None]] = no_time) -> FastAPI:
+def server_of(
+    accounts: Accounts, sleep: Callable[[float], Awaitable[None]] = no_time, fleet: Fleet | None = None
+) -> FastAPI:
     """The API with these accounts, and one planner for every name."""
     planner = Says(outcome=lambda r, s, p: Planned(task=corner_task(r, s, p), planner="hand"))
     service = AccountService(accounts, LoginThrottle(sleep=sleep))
-    return create_app(lambda name: planner, hosts=LOCAL, accounts=service)
+    return create_app(lambda name: planner, hosts=LOCAL, accounts=service, fleet=fleet)
 
 
 class Visitor:
