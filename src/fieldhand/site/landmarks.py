@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from itertools import chain, count
 
 import numpy as np
+import numpy.typing as npt
 import shapely
 
 from fieldhand.site.feature_kinds import NAME_KEYS, OPEN_LANDMARKS, phrase, text_of
@@ -67,7 +68,7 @@ def _name_of(landmark: PointFeature) -> str:
     return name if name.isprintable() else ""
 
 
-def _metres(points: Sequence[PointFeature], projection: Projection) -> np.ndarray:
+def _metres(points: Sequence[PointFeature], projection: Projection) -> npt.NDArray[np.float64]:
     if not points:
         return np.empty((0, 2))
     return projection.metres([p.lat for p in points], [p.lon for p in points])
