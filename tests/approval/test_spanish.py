@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import HealthCheck, given, settings
 
 from fieldhand import mission
 from fieldhand.language import Message, open_language
@@ -80,7 +80,7 @@ def test_most_words_of_the_source_are_english_only() -> None:
     assert {"tree", "trees", "the", "row", "nearest", "budget", "drive"} <= ONLY_ENGLISH
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
 @given(task=Parts(ROVER).tasks())
 def test_no_english_word_is_left_in_the_lines_of_any_task(task: Any) -> None:
     """Whatever the plan: words of the catalogue are Spanish; quoted names of unknown actions stay what they are."""
