@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import replace
 
 import pytest
@@ -11,6 +11,7 @@ import ros2.test_simulated_robot_contract as contract
 from fieldhand.execution.drivers.ros2.driver import Ros2Driver
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.profile_check import check_types
+from fieldhand.execution.drivers.ros2.robot_connection import needed_actions
 from fieldhand.execution.drivers.ros2.simulated_robot.robot import GoalReport, SimulatedRobot
 from fieldhand.execution.drivers.simulation.world import ActionFails, Blocked, TreeRef, World
 from fieldhand.execution.guard import NoGuard
@@ -62,18 +63,19 @@ class Field:
         )  # fmt: skip
         self.clock.lives = self.simulated.step
 
-    def connect(self) -> Ros2Driver:
+    def connect(self, actions: Collection[str] | None = None) -> Ros2Driver:
         driver = Ros2Driver.connect(
             self.node, self.interfaces, self.site, self.robot, clock=self.clock, steady=self.clock.now,
-            sleep=self.clock.advance, look_every_s=1.0,
+            sleep=self.clock.advance, look_every_s=1.0, actions=actions,
         )  # fmt: skip
         self.clock.looks = driver.poll
         return driver
 
     def fly(self, plan: Node, *, interrupted: Callable[[], str | None] = lambda: None) -> Result:
+        task = task_for(InOrder(steps=(plan,)))
         result = run(
-            authorized(task_for(InOrder(steps=(plan,))), self.site, self.robot),
-            site=self.site, robot=self.robot, driver=self.connect(), guard=NoGuard(), clock=self.clock,
+            authorized(task, self.site, self.robot), site=self.site, robot=self.robot,
+            driver=self.connect(needed_actions(task, self.robot)), guard=NoGuard(), clock=self.clock,
             emit=lambda _: None, interrupted=interrupted,
         )  # fmt: skip
         self.clock.advance(2.0)
