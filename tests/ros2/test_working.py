@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import replace
 
 import pytest
 
 import ros2.test_simulated_robot_contract as contract
+from fieldhand.errors import Ros2Error
 from fieldhand.execution.drivers.ros2.driver import Ros2Driver
 from fieldhand.execution.drivers.ros2.interfaces import Interfaces
 from fieldhand.execution.drivers.ros2.profile_check import check_types
+from fieldhand.execution.drivers.ros2.robot_connection import needed_actions
 from fieldhand.execution.drivers.ros2.simulated_robot.robot import GoalReport, SimulatedRobot
 from fieldhand.execution.drivers.simulation.world import ActionFails, Blocked, TreeRef, World
 from fieldhand.execution.guard import NoGuard
@@ -33,6 +35,13 @@ def robot_with(**navigation: object) -> RobotProfile:
     assert robot.ros2 is not None
     changed = replace(robot.ros2.navigation, **navigation)  # type: ignore[arg-type]
     return replace(robot, ros2=replace(robot.ros2, navigation=changed))
+
+
+def without(robot: RobotProfile, action: str) -> RobotProfile:
+    """The robot without the binding of an action."""
+    assert robot.ros2 is not None
+    left = {name: bound for name, bound in robot.ros2.actions.items() if name != action}
+    return replace(robot, ros2=replace(robot.ros2, actions=left))
 
 
 class Field:
@@ -62,18 +71,19 @@ class Field:
         )  # fmt: skip
         self.clock.lives = self.simulated.step
 
-    def connect(self) -> Ros2Driver:
+    def connect(self, actions: Collection[str] | None = None) -> Ros2Driver:
         driver = Ros2Driver.connect(
             self.node, self.interfaces, self.site, self.robot, clock=self.clock, steady=self.clock.now,
-            sleep=self.clock.advance, look_every_s=1.0,
+            sleep=self.clock.advance, look_every_s=1.0, actions=actions,
         )  # fmt: skip
         self.clock.looks = driver.poll
         return driver
 
     def fly(self, plan: Node, *, interrupted: Callable[[], str | None] = lambda: None) -> Result:
+        task = task_for(InOrder(steps=(plan,)))
         result = run(
-            authorized(task_for(InOrder(steps=(plan,))), self.site, self.robot),
-            site=self.site, robot=self.robot, driver=self.connect(), guard=NoGuard(), clock=self.clock,
+            authorized(task, self.site, self.robot), site=self.site, robot=self.robot,
+            driver=self.connect(needed_actions(task, self.robot)), guard=NoGuard(), clock=self.clock,
             emit=lambda _: None, interrupted=interrupted,
         )  # fmt: skip
         self.clock.advance(2.0)
@@ -165,7 +175,8 @@ def test_an_operator_stops_it_and_it_is_off() -> None:
     assert field.switched("spray") == ["on", "off"]
 
 
-def test_after_a_kill_the_next_start_switches_it_off() -> None:
+@pytest.mark.parametrize("needed", [None, {"read_soil_moisture"}])
+def test_after_a_kill_the_next_start_switches_it_off(needed: set[str] | None) -> None:
     field = Field(tractor())
 
     class KilledError(BaseException):
@@ -187,9 +198,17 @@ def test_after_a_kill_the_next_start_switches_it_off() -> None:
     assert field.switched("spray") == ["on"]
     field.clock.looks = lambda: None
     driver.close()
-    field.connect()
+    field.connect(needed)
     field.clock.advance(1.0)
     assert field.switched("spray") == ["on", "off"]
+
+
+def test_an_implement_that_the_mission_does_not_need_may_be_missing() -> None:
+    field = Field(without(tractor(), "spray"))
+    field.robot = tractor()
+    assert field.fly(WorkAlong(action="mow", along=along("r0").along)).status == "completed"
+    with pytest.raises(Ros2Error, match="spray"):
+        field.connect({"spray"})
 
 
 class _Dying:

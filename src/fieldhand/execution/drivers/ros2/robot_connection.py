@@ -23,7 +23,7 @@ from fieldhand.robot.bindings import Ros2Bindings
 from fieldhand.robot.model import RobotProfile
 from fieldhand.site.model import Site
 from fieldhand.task.frames import Task
-from fieldhand.task.plan import acts
+from fieldhand.task.plan import actions_of
 from fieldhand.task.recharging import recharges
 from fieldhand.task.watches import watched_events
 
@@ -132,10 +132,10 @@ def connected_robot(
 
 
 def needed_actions(task: Task, robot: RobotProfile) -> set[str]:
-    """Return the names of everything that the robot has to do in one place."""
+    """Return the names of everything that the robot has to do, at places and along paths."""
     charging = robot.energy.charging if recharges(task) else None
     docking = set() if charging is None else {action.name for action in charging.maneuvers}
-    return {act.action for act in acts(task.composition.plan)} | docking
+    return {name for name in actions_of(task.composition.plan) if name} | docking
 
 
 class RobotPresence:

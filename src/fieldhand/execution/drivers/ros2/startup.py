@@ -131,6 +131,8 @@ class Startup:
 
     def _missing_switches(self) -> Iterator[_Missing]:
         for name, (binding, end) in self._implements.switches.items():
+            if not self._implements.is_needed(name):
+                continue
             full_name = self._implements.whole_name(binding.name)
             if binding.kind == "service":
                 yield from self._no_service(name, end, full_name, binding.type)  # type: ignore[arg-type]

@@ -39,7 +39,8 @@ class ImplementClient:
         robot, bindings: Profile of the robot and its ROS 2 bindings.
         clock: Mission clock in seconds.
         steady: Monotonic clock in seconds.
-        only: Names of the actions to bind; None for all.
+        only: Names of the actions that the mission needs; None for all. The others are bound, too, because an earlier
+            mission may have left them on, but may be missing.
 
     Attributes:
         is_on: Names of the implements that are on, or may be.
@@ -60,9 +61,10 @@ class ImplementClient:
     ) -> None:
         self.robot, self.clock, self.steady, self._bindings = robot, clock, steady, bindings
         self.is_on: set[str] = set()
+        self._only = only
         self.switches: dict[str, tuple[SwitchBinding, Client | Publisher]] = {}
         for name, bound in bindings.actions.items():
-            if bound.switch is None or (only is not None and name not in only):
+            if bound.switch is None:
                 continue
             full_name = bindings.whole_name(bound.switch.name)
             end: Client | Publisher
@@ -75,6 +77,14 @@ class ImplementClient:
     def whole_name(self, name: str) -> str:
         """Return a name with the robot's namespace."""
         return self._bindings.whole_name(name)
+
+    def is_needed(self, name: str) -> bool:
+        """Return True if the mission needs this implement."""
+        return self._only is None or name in self._only
+
+    def _is_there(self, name: str) -> bool:
+        end = self.switches[name][1]
+        return (end.servers() if hasattr(end, "servers") else end.subscribers()) > 0
 
     def switch(self, action: str, *, on: bool, parameters: Mapping[str, str | float]) -> SwitchSteps:
         """Switch an implement in steps that yield while waiting; return why that failed, or an empty text."""
@@ -113,9 +123,13 @@ class ImplementClient:
             yield
 
     def all_off(self) -> Generator[None, None, tuple[str, ...]]:
-        """Switch all implements off; return what failed, one text each."""
+        """Switch all implements off, except those that the mission does not need and that are missing; return what
+        failed, one text each.
+        """
         failed = []
         for name in self.switches:
+            if not self.is_needed(name) and not self._is_there(name):
+                continue
             parameters = {p.name: p.default for p in self.robot.action[name].parameters}
             if why := (yield from self.switch(name, on=False, parameters=parameters)):
                 failed.append(f"{name} could not be switched off: {why}")
