@@ -42,7 +42,7 @@ def landmark_zones(
         return ()
     taken = {phrase(zone.name) for zone in zones}
     seen: set[str] = set()
-    near = shapely.STRtree(shapely.points(_metres(others, projection)))
+    near = shapely.STRtree(np.asarray(shapely.points(_metres(others, projection))))
     found: list[Zone] = []
     for p, xy in zip(named, _metres(named, projection), strict=True):
         own = _name_of(p)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 from fieldhand.places import selectors as s
 from fieldhand.planning.grammar.dialogue.state import DialogueState, Setting
@@ -31,7 +31,7 @@ def with_its_parts(setting: Setting, state: DialogueState, command: T, *, same_s
     one: Any = command
     place = getattr(one, "place", None)
     pending = state.lead or state.area or getattr(one, "within", None) or state.each_of
-    changed: T = command
+    changed: Any = command
     if isinstance(place, PlaceMeaning) and place.per is None:
         meant = _meant(setting, state, place, one.used, same_sentence=same_sentence, free=pending is None)
         changed = command if meant == place else replace(one, place=meant)
@@ -43,7 +43,7 @@ def with_its_parts(setting: Setting, state: DialogueState, command: T, *, same_s
             changed = replace(one, along=s.InZone(zone=edge.zone), mode="perimeter", sides=edge.part)
         elif meant != ground:
             changed = replace(one, along=meant.selector)
-    return changed
+    return cast(T, changed)
 
 
 def _meant(

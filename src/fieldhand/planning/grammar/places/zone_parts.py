@@ -26,7 +26,7 @@ from fieldhand.planning.selections import (
     swapped,
 )
 from fieldhand.site.model import Site
-from fieldhand.terms import AreaPart, Side
+from fieldhand.terms import AreaPart
 
 GRAMMAR = Grammar()
 construction = GRAMMAR.construction
@@ -95,7 +95,7 @@ def _of_bare_ground(places: s.Selector, part: s.Selector, zone: s.InZone, site: 
     if corners is not None:
         return swapped(places, part, s.Corners(which=corners.which, zone=zone.zone))
     if end is not None or as_edge(part) is not None or is_keep_out(zone, site):
-        return swapped(places, part, on_side(zone, cast(Side, side))) if side in SIDES else None
+        return swapped(places, part, on_side(zone, side)) if side in SIDES else None
     if part == s.Middle():
         return swapped(places, part, s.PointsIn(zone=zone.zone))
     if some is not None and some.of == part:
