@@ -88,6 +88,7 @@ REFUSED = [
     (GARDEN, AMIGA, "Photograph the kale. Take a leaf of the ones with frost damage.", "no such ones were named before"),
     (GARDEN, AMIGA, "Photograph everything else.", "it is not clear which others are meant"),
     (GARDEN, AMIGA, "Photograph the potatoes, then the beans, but of those only every other one.", "it is not clear which trees are meant"),
+    (GLASSHOUSE, HUSKY, "Photograph the aubergines, the Long Tom first.", "it is not clear in which order"),
     (PASTURE, HUSKY, "Read CO2 at both gates, then again in the opposite order.", "it is not clear in which order"),
 ]  # fmt: skip
 

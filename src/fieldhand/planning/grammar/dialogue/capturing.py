@@ -693,6 +693,8 @@ def _all_of_kind(state: DialogueState, lead: Lead) -> Lead:
     before = state.where
     if kind is None or before is None or before.shape != "several" or not is_by_attribute(before.selector):
         return lead
+    if before.optional or not (state.sequenced or state.scope):
+        return lead  # "as many onions as you can, the Sturon first"
     marked = not isinstance(kind.value, str) or not is_unmarked(kind.attribute, kind.value)
     if before.count is not None or (marked and not whole):
         return lead

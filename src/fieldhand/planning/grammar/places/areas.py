@@ -21,6 +21,7 @@ from fieldhand.planning.selections import (
     as_edge,
     as_half,
     as_quota,
+    as_where,
     as_zone,
     chooses_from_trees,
     compass_part,
@@ -432,6 +433,8 @@ def restricted(whole: PlaceMeaning, where: s.Selector, way: str) -> PlaceMeaning
 @construction("place: whole=place COMMA where=region", cost=0.3)
 def in_area_behind(whole: PlaceMeaning, where: s.Selector) -> PlaceMeaning | None:
     """Compose "the ten weakest vines, south block" and "every third tree, rows 2 to 5"."""
+    if as_where(where) is not None and as_where(whole.selector) is not None:
+        return None  # "the onions, the Sturon first"
     if whole.shape not in ("one", "several") or whole.per is not None or not specifies_part(whole.selector):
         return None
     return replace(whole, selector=over(whole.selector, where))

@@ -181,12 +181,14 @@ def positions_out(
 
 
 @construction(
-    "row_ends: [DET] ROW noun=FINISH", "row_ends: [DET] noun=FINISH OF [DET] row=ROW",
-    "row_ends: [DET] noun=FINISH OF EACH row=ROW", "row_ends: EACH noun=FINISH OF DET row=ROW", cost=0.1,
+    "row_ends: [DET] ROW noun=FINISH", "row_ends: [DET] noun=FINISH OF [word=DET] row=ROW",
+    "row_ends: [DET] noun=FINISH OF EACH row=ROW", "row_ends: EACH noun=FINISH OF word=DET row=ROW", cost=0.1,
 )  # fmt: skip
-def row_ends(noun: Lex, row: Lex | None = None) -> s.Selector | None:
-    """Compose "the row ends" and "the end of a row", of any row of the site."""
-    if noun.plural is False and row is None:
+def row_ends(noun: Lex, row: Lex | None = None, word: Lex | None = None) -> s.Selector | None:
+    """Compose "the row ends" and "the end of a row", of any row of the site; "the row" is one that was named."""
+    if row is None and not noun.plural:
+        return None
+    if row is not None and not row.plural and word is not None and "definite" in word.features:
         return None
     return s.UnionOf(parts=tuple(s.InRow(first=at, last=at, of=s.Rows()) for at in (1, -1)))
 
