@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapely
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from scipy.sparse.csgraph import dijkstra
 from shapely.geometry import LineString, Point, box
@@ -67,6 +67,7 @@ def drivable(site: Site, drives: Drives):
 
 @settings(max_examples=60, deadline=None)
 @given(st.integers(0, 10**6))
+@example(698)  # rows of single trees
 def test_no_drive_crosses_a_tree_line_a_keep_out_or_the_boundary(seed):
     site = generated(seed)
     drives = Drives(site, CLEARANCE, STANDOFF)

@@ -26,6 +26,8 @@ _WINDS = ("north", "north-east", "east", "south-east", "south", "south-west", "w
 #: A row leads towards a side of the compass within this angle of it (60 degrees): one to the north-east leads to both.
 _TOWARDS_COS = 0.5 - 1e-9
 
+#: An id of a tree such as "B07-12": the row's part, and the number in the row.
+_ENDS_IN_NUMBER = re.compile(r"(.*\D)0*(\d{1,6})")
 _NUMBERED = re.compile(r"(\D*?) ?0*(\d{1,9})")
 
 
@@ -107,12 +109,14 @@ def trees_from(site: Site, block: Block, side: CountedFrom) -> tuple[int, str]:
     """Return 1 if the trees of a block's rows count in list order, -1 if backwards, and the side that they are counted
     from.
 
+    By default they are counted from where the numbers in their ids begin ("B07-01"), else from the usual end.
+
     Raises:
         PlaceError: The rows have no end on that side.
     """
     axis = along(block)
     if side == "usual":
-        return 1, wind(-axis)
+        return (-1, wind(axis)) if _ids_fall(site, block) else (1, wind(-axis))
     way = leads(axis, side)
     if way == 0:
         raise PlaceError(
@@ -207,6 +211,18 @@ def _falls(names: Sequence[str]) -> bool:
     letters = [name.lower() for name in names if len(name) == 1 and name.isalpha()]
     order: Sequence[int | str] = numbers if numbers else letters if len(letters) == len(names) else ()
     return len(order) > 1 and all(a > b for a, b in pairwise(order))  # type: ignore[operator]
+
+
+def _ids_fall(site: Site, block: Block) -> bool:
+    """Return True if the ids of the trees end in numbers that decrease along each row, and begin anew in each row."""
+    beginnings: set[str] = set()
+    for row in block.rows:
+        found = [_ENDS_IN_NUMBER.fullmatch(site.trees[k].place.id) for k in row.trees.tolist()]
+        names, numbers = {m[1] if m else "" for m in found}, [int(m[2]) for m in found if m]
+        if len(names) != 1 or len(numbers) != len(found) or not all(a > b for a, b in pairwise(numbers)):
+            return False
+        beginnings |= names
+    return len(beginnings) == len(block.rows) and any(len(row.trees) > 1 for row in block.rows)
 
 
 def numbered_by_file(site: Site, row: Row) -> bool:

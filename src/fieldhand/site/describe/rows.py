@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fieldhand.hidden_characters import visible
-from fieldhand.site.counting import rows_from
+from fieldhand.site.counting import rows_from, trees_from
 from fieldhand.site.model import Site
 from fieldhand.site.planting import Block, Row, RowSource
 
@@ -56,6 +56,7 @@ class BlockSummary:
         row_spacing_m: Distance from row to row; None for a single row.
         tree_spacing_m: Distance from tree to tree along the rows; None if no row has two trees.
         counted_from: Side from which its rows are numbered.
+        trees_from: Side from which the trees of a row are counted.
         trees: Number of trees in its rows.
         missing: Number of empty planting positions between the ends of its rows.
         shortest, longest: Its rows with the fewest and the most trees.
@@ -69,6 +70,7 @@ class BlockSummary:
     row_spacing_m: float | None
     tree_spacing_m: float | None
     counted_from: str
+    trees_from: str
     trees: int
     missing: int
     shortest: RowSummary
@@ -89,7 +91,8 @@ def row_table(site: Site) -> tuple[RowSummary, ...]:
 def block_summary(site: Site, block: Block) -> BlockSummary:
     """Return the summary of a block."""
     rows, _ = rows_from(site, block, "usual")
-    usual = "north" if block.runs_east_west else "west"
+    usual, ends = ("north", ("west", "east")) if block.runs_east_west else ("west", ("north", "south"))
+    way, _ = trees_from(site, block, "usual")
     lengths = [len(row.trees) for row in rows]
     shortest, longest = int(np.argmin(lengths)), int(np.argmax(lengths))
     spacing, apart = block.row_spacing_m, block.tree_spacing_m
@@ -100,6 +103,7 @@ def block_summary(site: Site, block: Block) -> BlockSummary:
         row_spacing_m=None if math.isnan(spacing) else spacing,
         tree_spacing_m=apart if max(lengths) > 1 and math.isfinite(apart) else None,
         counted_from=usual if rows[0] is block.rows[0] else _OPPOSITE[usual],
+        trees_from=ends[0] if way > 0 else ends[1],
         trees=sum(lengths),
         missing=sum(_missing(row) for row in block.rows),
         shortest=_row(site, block, rows[shortest], shortest + 1),
@@ -127,9 +131,8 @@ def block_words(block: BlockSummary, *, several: bool) -> str:
 
 def counting_words(block: BlockSummary) -> str:
     """Return the sides from which rows and the trees in them are counted, in words."""
-    side = block.counted_from
-    trees = "west to east" if side in ("north", "south") else "north to south"
-    return f"rows are counted from {side} to {_OPPOSITE[side]}, trees in a row from {trees}"
+    rows, trees = (f"{side} to {_OPPOSITE[side]}" for side in (block.counted_from, block.trees_from))
+    return f"rows are counted from {rows}, trees in a row from {trees}"
 
 
 def block_name(name: str) -> str:

@@ -283,6 +283,8 @@ def _in_order(frame: Frame, lines: Sequence[RowLine], trees: shapely.STRtree) ->
         ring = np.vstack(sides)
         if len(ring) > 2:
             strips.append((Polygon(frame.world(ring)), {*below.rows, *above.rows}))
+    if not strips:  # single trees: nothing can lie between two points
+        return [lines]
     if not all(strip.is_valid for strip, _ in strips):
         return [[line] for line in lines]
     which, rows = trees.query([strip for strip, _ in strips], predicate="intersects")

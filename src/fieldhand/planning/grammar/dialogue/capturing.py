@@ -77,7 +77,7 @@ from fieldhand.planning.grammar.meaning import (
 )
 from fieldhand.planning.grammar.places.compass import AWAY_FROM
 from fieldhand.planning.grammar.places.numbered import ids_of
-from fieldhand.planning.grammar.places.sampling import bare_points, bare_zone, is_keep_out
+from fieldhand.planning.grammar.places.sampling import bare_points, bare_zone, beside_objects, is_keep_out
 from fieldhand.planning.selections import (
     AREAS,
     anchors,
@@ -190,6 +190,11 @@ def capture(setting: Setting, state: DialogueState, command: CaptureCommand) -> 
     if command.relation == "along" and place.shape == "area" and is_keep_out(place.selector, setting.site):
         asked = message("'{said}': at how many places?", context="question", said=setting.quoted(command.used))
         raise OpenQuestion(asked)
+    spots = beside_objects(place.selector, setting.site) if place.shape == "area" and place.per is None else ()
+    if len(spots) == 1:
+        place = PlaceMeaning(spots[0], "one")
+    elif spots:
+        place = PlaceMeaning(s.UnionOf(parts=spots), "several", count=len(spots), each=True, in_order=place.in_order)
     refuse_keep_out(setting, place)
     place, things = _at_end_of_row(setting, state, command, place, things)
     place, things = fitted(setting, place, things, command.relation, command.used)

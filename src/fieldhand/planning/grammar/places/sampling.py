@@ -35,6 +35,8 @@ construction = GRAMMAR.construction
 
 #: Largest share of a group that is a sample of it, in percent; 100 % are all of them.
 _MOST_PERCENT = 100.0
+#: Largest area in square metres of an object beside which there is one place to be.
+_LARGEST_OBJECT_M2 = 25.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,6 +144,26 @@ def is_keep_out(area: s.Selector, site: Site) -> bool:
     zone = as_zone(area)
     named = [one for one in site.zones if zone is not None and one.name == zone.zone]
     return bool(named) and all(one.kind == "keep_out" for one in named)
+
+
+def is_object(area: s.Selector, site: Site) -> bool:
+    """Return True for ground that an object takes up (a trough, a tap), beside which a robot stops."""
+    zone = as_zone(area)
+    sizes = [one.polygon.area for one in site.zones if zone is not None and one.name == zone.zone]
+    return is_keep_out(area, site) and max(sizes) <= _LARGEST_OBJECT_M2
+
+
+def beside_objects(areas: s.Selector, site: Site) -> tuple[s.Selector, ...]:
+    """Return the places at which a robot stops beside objects ("the trough and the tap"); empty for other areas."""
+    spots = []
+    for one in areas.members:
+        if is_object(one, site):
+            spots.append(s.Transect(count=1, shape="edge", zone=one.whole_zone))
+        elif one.single and not one.relative:
+            spots.append(one)
+        else:
+            return ()
+    return tuple(spots)
 
 
 def bare_points(area: s.Selector, site: Site, count: int, *, random: bool = False) -> s.PointsIn | s.Transect | None:
