@@ -366,6 +366,16 @@ def watch(left: list[tuple[float, float, int]], *, stuck_s: float = 30.0, recove
     return None
 
 
+def test_the_distance_that_a_controller_reports_is_no_measure_of_progress() -> None:
+    """Nav2 computes it from a position in the frame of odometry and a path in that of the map."""
+    now = [0.0]
+    headway = Headway(TimeLimit(30.0, lambda: now[0], lambda: now[0]), 5)
+    for at_s in range(0, 200, 5):
+        now[0] = float(at_s)
+        assert headway.look({"distance_to_goal": 12.0, "speed": 1.0}) is None
+    assert headway.least_m == math.inf
+
+
 @settings(max_examples=examples(30, thorough=500))
 @given(st.lists(st.floats(0.55, 5.0), min_size=1, max_size=60), st.integers(0, 4))
 def test_a_drive_that_comes_nearer_is_never_stuck(steps: list[float], recoveries: int) -> None:

@@ -18,7 +18,9 @@ _NEARER_M = 0.5
 #: Metres by which it grows where Nav2 has chosen another way, and how often that counts in one drive.
 _OTHER_WAY_M, _MOST_WAYS = 5.0, 3
 
-_LEFT = (FieldBinding(path="distance_remaining"), FieldBinding(path="distance_to_goal"))
+#: The ``distance_to_goal`` of FollowPath is wrong in Nav2 1.3: it compares the position in the frame of the local
+#: costmap, usually odom, with a path in that of the map. The controller reports a lack of progress itself (code 105).
+_LEFT = FieldBinding(path="distance_remaining")
 _RECOVERIES = FieldBinding(path="number_of_recoveries")
 
 
@@ -42,9 +44,9 @@ class Headway:
 
     def look(self, feedback: RosMessage) -> str | None:
         """Return why the drive is stuck, in words; None if it is not, or if the feedback does not tell."""
-        left_m = next((m for bound in _LEFT if (m := number_at(feedback, bound)) is not None and m > 0.0), None)
+        left_m = number_at(feedback, _LEFT)
         self.recoveries = max(self.recoveries, int(number_at(feedback, _RECOVERIES) or 0))
-        if left_m is None:
+        if left_m is None or left_m <= 0.0:
             return None
         self.least_m = min(self.least_m, left_m)
         other_way = self._best_m is not None and left_m > self._best_m + _OTHER_WAY_M and self._ways < _MOST_WAYS
