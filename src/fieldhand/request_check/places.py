@@ -453,8 +453,8 @@ def _sides(facts: RequestFacts, plan: PlanFacts, site: Site) -> Iterator[PlanMis
     if faced and _SOME_SIDES.search(facts.text):
         ends |= {side for side in _SIDES if side in faced}  # "on the paddock side", "at both ends"
     if "between" in facts.words:
-        # In the aisle between two rows.
-        ends |= {x.side for _, x in plan.having(s.Beside) if isinstance(x, s.Beside) and x.side in _SIDES}
+        beside = [getattr(x, "side", "") for _, x in plan.having(s.Beside)]
+        ends |= {side for side in _SIDES if side in beside}  # in the aisle between two rows
     for side, node in plan.sides.items():
         if side not in facts.sides and not around and side not in ends:
             yield PlanMismatch(
