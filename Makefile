@@ -1,5 +1,5 @@
 # A fresh machine needs Python 3.10 or newer and make; each target below starts from a bare clone.
-.PHONY: help setup demo test test-versions check docs clean
+.PHONY: help setup demo test test-versions check check-newest check-oldest docs clean
 .DEFAULT_GOAL := help
 
 VENV := .venv
@@ -37,14 +37,19 @@ WITHIN := 600
 test-versions: $(READY)
 	@$(BIN)/python scripts/test_versions.py --within $(WITHIN)
 
-check: $(READY)
+# In two parts, which run at the same time with -j2.
+check: check-newest check-oldest
+
+check-newest: $(READY)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
-	$(BIN)/vermin --quiet --no-tips --eval-annotations -t=3.10- src benchmarks/src scripts tests examples ros2
 	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+check-oldest: $(READY)
+	$(BIN)/vermin --quiet --no-tips --eval-annotations -t=3.10- src benchmarks/src scripts tests examples ros2
 	@# The installed stubs of numpy are for newer releases: here, some of their functions return Any.
 	$(BIN)/mypy --python-version 3.10 --no-warn-return-any --no-warn-unused-ignores
-	$(BIN)/lint-imports
 	$(BIN)/python scripts/build_page.py --check
 
 docs: $(READY)
