@@ -213,11 +213,7 @@ def _end_of_row_spoken_of(state: DialogueState, place: PlaceMeaning) -> PlaceMea
 
 
 def _middle_of_those(setting: Setting, state: DialogueState, place: PlaceMeaning) -> PlaceMeaning:
-    """Return "the middle" behind places of one row or zone as its middle, and of the site behind others.
-
-    Raises:
-        NotComposed: The places before were those of several rows.
-    """
+    """Return "the middle" behind places of one row or zone as its middle, and of the site behind others."""
     before = state.where
     if place.selector != s.Middle() or place.itself or before is None or before.selector.relative:
         return place
@@ -232,7 +228,7 @@ def _middle_of_those(setting: Setting, state: DialogueState, place: PlaceMeaning
         return place
     row = rows.pop() if rows else None
     if rows or zones or row is None or not is_one_row(row):
-        raise NotComposed(message("it is not clear which one is meant", context="fault"))
+        return place
     return replace(place, selector=s.Middle(of=row))
 
 

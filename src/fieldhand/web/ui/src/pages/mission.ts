@@ -227,7 +227,7 @@ export class MissionView {
   private button(command: Command): HTMLButtonElement {
     const words = t(`command_${command}`);
     const button = el("button", { type: "button", class: command === "abort" ? "danger" : false, "data-command": command }, words);
-    let sure = 0;
+    let sure = -Infinity;
     button.addEventListener("click", () => {
       // Nothing undoes an abort: it takes a second touch.
       if (command === "abort" && performance.now() - sure > SURE_MS) {
