@@ -155,7 +155,7 @@ def is_object(area: s.Selector, site: Site) -> bool:
 
 def beside_objects(areas: s.Selector, site: Site) -> tuple[s.Selector, ...]:
     """Return the places at which a robot stops beside objects ("the trough and the tap"); empty for other areas."""
-    spots = []
+    spots: list[s.Selector] = []
     for one in areas.members:
         if is_object(one, site):
             spots.append(s.Transect(count=1, shape="edge", zone=one.whole_zone))
