@@ -258,18 +258,23 @@ def test_robots_say_what_they_can_do_in_spanish(chromium: Browser, server: PageS
         page.get_by_role("link", name="Sites").wait_for()
 
 
+def begin_mission(page: Page, request_: str) -> None:
+    """Plan a request, approve it, and wait until a simulated robot carries it out at its own speed."""
+    page.locator(".example").first.wait_for()
+    if not page.get_by_role("link", name="Missions").is_visible():
+        pytest.skip("this server carries out no missions itself")
+    plan(page, request_)
+    page.locator(".approve summary").click()
+    page.get_by_label("Speed of the simulation").select_option("1")
+    if page.get_by_label("Your name").is_visible():
+        page.get_by_label("Your name").fill("Ana")
+    page.get_by_role("button", name="Approve and simulate").click()
+    page.locator(".chip.running").wait_for()
+
+
 def test_a_live_mission_is_followed_paused_and_stopped(chromium: Browser, server: PageServer, login: Any) -> None:
     with opened(chromium, server, login) as page:
-        page.locator(".example").first.wait_for()
-        if not page.get_by_role("link", name="Missions").is_visible():
-            pytest.skip("this server carries out no missions itself")
-        plan(page, "Take a picture of every tree in row 3.")
-        page.locator(".approve summary").click()
-        page.get_by_label("Speed of the simulation").select_option("1")
-        if page.get_by_label("Your name").is_visible():
-            page.get_by_label("Your name").fill("Ana")
-        page.get_by_role("button", name="Approve and simulate").click()
-        page.locator(".chip.running").wait_for()
+        begin_mission(page, "Take a picture of every tree in row 3.")
         checked(page)
         page.get_by_role("button", name="Pause").click()
         page.get_by_text("The robot has received: Pause.").wait_for()
@@ -287,16 +292,7 @@ def test_a_live_mission_is_followed_paused_and_stopped(chromium: Browser, server
 
 def test_a_lost_server_makes_the_robots_position_old(chromium: Browser, server: PageServer, login: Any) -> None:
     with opened(chromium, server, login, SCREEN) as page:
-        page.locator(".example").first.wait_for()
-        if not page.get_by_role("link", name="Missions").is_visible():
-            pytest.skip("this server carries out no missions itself")
-        plan(page, "Take a picture of every tree in row 4.")
-        page.locator(".approve summary").click()
-        page.get_by_label("Speed of the simulation").select_option("1")
-        if page.get_by_label("Your name").is_visible():
-            page.get_by_label("Your name").fill("Ana")
-        page.get_by_role("button", name="Approve and simulate").click()
-        page.locator(".chip.running").wait_for()
+        begin_mission(page, "Take a picture of every tree in row 4.")
         page.wait_for_function("() => document.querySelectorAll('.events li').length > 1")
         server.stop()
         try:
